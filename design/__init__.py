@@ -1,0 +1,1 @@
+"""The actuator as numbers: specification, materials and closed-form models, in SI units."""

@@ -1,0 +1,1 @@
+"""Axisymmetric finite-element magnetostatics."""

@@ -1,0 +1,1 @@
+"""Cross-sections for the field solver, and solids and drawings for the workshop."""

@@ -1,0 +1,1 @@
+"""Evaluation of one design, sweeps over many, and the search for the best."""
