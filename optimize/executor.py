@@ -1,0 +1,218 @@
+"""Runs tasks in local processes: results as they come, a crash costs one task.
+
+Each worker has a pipe of its own, so that the parent always knows which task a dead worker held. (A shared queue, as in
+`concurrent.futures`, breaks as a whole and leaves every task in flight under suspicion.)
+"""
+
+from __future__ import annotations
+
+import os
+import pickle
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from types import TracebackType
+from typing import Any, Generic, Protocol, Self, TypeVar
+
+from fluxbore.design.errors import FluxboreError
+from fluxbore.optimize.worker import FAILURE, READY, Worker, start_worker
+
+T = TypeVar("T")
+T_contra = TypeVar("T_contra", contravariant=True)
+R = TypeVar("R")
+
+ATTEMPTS = 2
+"""A task whose worker dies is tried once more, alone: what killed the worker may have been its neighbour's memory."""
+
+_START_FAILURES = 3
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome(Generic[R]):
+    """What became of the task number ``index``: its value, or in ``failure`` a sentence that says why there is none."""
+
+    index: int
+    value: R | None
+    failure: str | None = None
+
+
+class Executor(Protocol):
+    """What sweeps and searches need of whatever computes: local processes, this process, a cluster.
+
+    ``run`` yields one outcome for every task, in the order in which they finish; it takes tasks from the iterable only
+    as it can use them. Closing the iterator early abandons what is in flight. ``function`` and tasks are pickled.
+    """
+
+    @property
+    def workers(self) -> int: ...
+
+    def run(self, function: Callable[[T], R], tasks: Iterable[T]) -> Iterator[Outcome[R]]: ...
+
+    def close(self) -> None: ...
+
+    def __enter__(self) -> Self: ...
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None: ...
+
+
+def local_executor(workers: int | None = None, *, in_process: bool = False) -> Executor:
+    """Processes on this machine, as many as it has cores; or this very process, where nothing can crash alone."""
+    if in_process:
+        return SerialExecutor()
+    return ProcessExecutor(available_cores() if workers is None else workers)
+
+
+def available_cores() -> int:
+    """The cores that this process may use."""
+    try:
+        return len(os.sched_getaffinity(0))
+    except AttributeError:  # not on every platform
+        return os.cpu_count() or 1
+
+
+class SerialExecutor:
+    """Runs tasks one by one in this process; an exception costs its task, a crash costs all."""
+
+    @property
+    def workers(self) -> int:
+        return 1
+
+    def run(self, function: Callable[[T], R], tasks: Iterable[T]) -> Iterator[Outcome[R]]:
+        """See `Executor`."""
+        for index, task in enumerate(tasks):
+            try:
+                outcome = Outcome(index, function(task))
+            except Exception as error:
+                outcome = Outcome(index, None, f"The evaluation stopped with {type(error).__name__}: {error}.")
+            yield outcome
+
+    def close(self) -> None:
+        pass
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+
+@dataclass(slots=True)
+class _Job:
+    index: int
+    message: bytes
+    crashes: int = 0
+
+
+class ProcessExecutor:
+    """Up to ``workers`` processes, started when first needed and kept until `close`."""
+
+    def __init__(self, workers: int) -> None:
+        if workers < 1:
+            raise FluxboreError(f"workers must be at least 1; got {workers}.")
+        self._workers = workers
+        self._idle: list[Worker] = []
+        self._start_failures = 0
+
+    @property
+    def workers(self) -> int:
+        return self._workers
+
+    def run(self, function: Callable[[T], R], tasks: Iterable[T]) -> Iterator[Outcome[R]]:
+        """See `Executor`. Raises FluxboreError where worker processes cannot be started at all."""
+        fresh = iter(enumerate(tasks))
+        again: deque[_Job] = deque()  # their worker did not even start: no blame
+        suspects: deque[_Job] = deque()  # their worker died
+        busy: dict[Worker, _Job] = {}
+        main = getattr(function, "__module__", None) == "__main__"
+
+        def next_job() -> _Job | None:
+            if again:
+                return again.popleft()
+            for index, task in fresh:
+                return _Job(index, pickle.dumps((function, task), protocol=pickle.HIGHEST_PROTOCOL))
+            if suspects and not busy:
+                return suspects.popleft()
+            return None
+
+        done: list[Outcome[R]] = []
+        try:
+            while True:
+                while len(busy) < self._workers and (job := next_job()) is not None:
+                    self._hand_out(job, busy, main)
+                # Results are given out after the next tasks are under way: what the consumer does with a result (a
+                # sync to the disk) then costs no worker's time.
+                yield from done
+                if not busy:
+                    return
+                done = [
+                    outcome for worker in self._answered(busy) for outcome in self._take(worker, busy, again, suspects)
+                ]
+        finally:
+            for worker in busy:
+                worker.kill()
+
+    def _hand_out(self, job: _Job, busy: dict[Worker, _Job], main: bool) -> None:
+        while self._idle:
+            worker = self._idle.pop()
+            if worker.send(job.message):
+                busy[worker] = job
+                return
+            worker.kill()  # died while idle
+        worker = start_worker(keep_main=main)
+        busy[worker] = job
+        worker.send(job.message)  # where it is dead already, the wait below finds out
+
+    def _answered(self, busy: dict[Worker, _Job]) -> list[Worker]:
+        from multiprocessing.connection import wait
+
+        ready = set(wait([worker.connection for worker in busy]))
+        return [worker for worker in busy if worker.connection in ready]
+
+    def _take(
+        self, worker: Worker, busy: dict[Worker, _Job], again: deque[_Job], suspects: deque[_Job]
+    ) -> Iterator[Outcome[Any]]:
+        answer = worker.receive()
+        if answer is not None and answer[0] == READY:
+            self._start_failures = 0
+            return
+        job = busy.pop(worker)
+        if answer is not None:
+            kind, content = answer
+            if worker.leaving:
+                worker.kill(patience=1.0)
+            else:
+                self._idle.append(worker)
+            yield Outcome(job.index, None, content) if kind == FAILURE else Outcome(job.index, content)
+            return
+        ended = worker.kill(patience=1.0)
+        if not worker.ready:
+            self._start_failures += 1
+            if self._start_failures >= _START_FAILURES:
+                raise FluxboreError(f"The worker processes cannot be started: each {ended} before its first design.")
+            again.append(job)
+            return
+        job.crashes += 1
+        if job.crashes < ATTEMPTS:
+            suspects.append(job)
+            return
+        yield Outcome(job.index, None, f"The process that computed the design {ended}, {job.crashes} times.")
+
+    def close(self) -> None:
+        """End the workers; what they compute is abandoned."""
+        idle, self._idle = self._idle, []
+        for worker in idle:
+            worker.dismiss()
+        for worker in idle:
+            worker.kill(patience=1.0)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()

@@ -1,0 +1,175 @@
+"""The crash-proof store of evaluated designs: an append-only file of JSON lines.
+
+A record is written with one call and forced to the disk before the design counts as done, so that a kill at any moment
+costs at most the record in flight. What the kill tore off is found and cut away when the journal is next opened.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from types import TracebackType
+from typing import Any, Self
+
+from fluxbore.design.errors import OutputError
+from fluxbore.optimize.evaluation import FAILED, Evaluation, from_plain, to_plain
+
+
+class Journal:
+    """The open journal of one folder; its single writer. Use it as a context manager.
+
+    Only the place of each record is kept in memory, not the record, so that a long study stays small.
+    """
+
+    def __init__(self, path: Path | str) -> None:
+        """Open or create the file. OutputError where it cannot be written or another run holds it."""
+        self.path = Path(path)
+        self._places: dict[str, tuple[int, int]] = {}
+        flags = os.O_RDWR | os.O_CREAT | os.O_APPEND | getattr(os, "O_BINARY", 0)
+        try:
+            self._file = os.open(self.path, flags, 0o666)
+        except OSError as error:
+            raise OutputError(f"{self.path} cannot be written: {error.strerror or error}.") from error
+        try:
+            _lock(self._file, self.path)
+            self._read()
+            _sync_folder(self.path.parent)
+        except OSError as error:
+            os.close(self._file)
+            raise OutputError(f"{self.path} cannot be read: {error.strerror or error}.") from error
+        except BaseException:
+            os.close(self._file)
+            raise
+
+    def __len__(self) -> int:
+        """How many designs can be taken from the journal."""
+        return len(self._places)
+
+    def __contains__(self, key: str) -> bool:
+        return key in self._places
+
+    def get(self, key: str) -> Evaluation | None:
+        """The evaluation recorded under ``key``. A design that failed by a crash is not given, so it is tried again."""
+        place = self._places.get(key)
+        if place is None:
+            return None
+        return _evaluation(_record(self._bytes(*place)) or {})
+
+    def put(self, key: str, kind: str, values: Mapping[str, Any], evaluation: Evaluation) -> Evaluation:
+        """Record one design on the disk; returns the evaluation exactly as `get` will give it.
+
+        kind : what asked for it ("sweep", "search"); values : the moved keys' values, for whoever reads the file.
+        Raises OutputError where the disk is full or gone.
+        """
+        record = {"key": key, "kind": kind, "values": _strict(values), "evaluation": _strict(to_plain(evaluation))}
+        line = json.dumps(record, allow_nan=False, separators=(",", ":")).encode() + b"\n"
+        begin = os.fstat(self._file).st_size
+        try:
+            rest = memoryview(line)
+            while rest:
+                rest = rest[os.write(self._file, rest) :]
+            os.fsync(self._file)
+        except OSError as error:
+            # Half a line would spoil the next record as well.
+            os.ftruncate(self._file, begin)
+            raise OutputError(f"{self.path} cannot be written: {error.strerror or error}.") from error
+        if evaluation.status != FAILED:
+            self._places[key] = (begin, len(line))
+        return _evaluation(record)
+
+    def close(self) -> None:
+        """Release the file and its lock; closing twice does nothing."""
+        if self._file >= 0:
+            os.close(self._file)
+            self._file = -1
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    def _read(self) -> None:
+        """Index the records; cut off a torn last line. A line that is damaged otherwise is passed over."""
+        begin = 0
+        with open(self._file, "rb", closefd=False) as file:
+            for line in file:
+                record = _record(line)
+                whole = line.endswith(b"\n")
+                if record is not None and record["evaluation"]["status"] != FAILED:
+                    self._places[record["key"]] = (begin, len(line))
+                if not whole and record is not None:
+                    os.write(self._file, b"\n")  # only the line's end was torn off
+                elif not whole:
+                    os.ftruncate(self._file, begin)
+                begin += len(line)
+
+    def _bytes(self, begin: int, length: int) -> bytes:
+        with open(self._file, "rb", closefd=False) as file:
+            file.seek(begin)
+            return file.read(length)
+
+
+def _record(line: bytes) -> dict[str, Any] | None:
+    """The record that a line holds, or None where it holds none. No proper prefix of a JSON object is one."""
+    try:
+        record = json.loads(line)
+        status, key = record["evaluation"]["status"], record["key"]
+        return record if isinstance(status, str) and isinstance(key, str) else None
+    except (ValueError, TypeError, KeyError, RecursionError):
+        return None
+
+
+def _evaluation(record: Mapping[str, Any]) -> Evaluation:
+    plain = record["evaluation"]
+    positions = [{name: math.nan if v is None else v for name, v in item.items()} for item in plain["positions"]]
+    return from_plain({**plain, "positions": positions})
+
+
+def settled(evaluation: Evaluation) -> Evaluation:
+    """The evaluation as a journal would give it back, so that a run with one and a run without see the same."""
+    return _evaluation({"evaluation": _strict(to_plain(evaluation))})
+
+
+def _strict(value: Any) -> Any:
+    """The value with null for what is not finite: JSON has no NaN. Finite floats keep every bit (repr)."""
+    if isinstance(value, float):
+        return float(value) if math.isfinite(value) else None
+    if isinstance(value, Mapping):
+        return {name: _strict(item) for name, item in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_strict(item) for item in value]
+    return _strict(value.item()) if hasattr(value, "item") else value  # numpy's numbers are Python's here
+
+
+def _lock(file: int, path: Path) -> None:
+    """Be the only writer until the file is closed or the process dies, however it dies."""
+    try:
+        import fcntl
+    except ImportError:  # no such lock on this platform
+        return
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError as error:
+        raise OutputError(
+            f"{path} must be written by one run at a time; another run is at work in this folder."
+        ) from error
+
+
+def _sync_folder(folder: Path) -> None:
+    """Make the file's name as durable as its content; where folders cannot be synced there is nothing to do."""
+    try:
+        file = os.open(folder, os.O_RDONLY)
+    except OSError:
+        return
+    try:
+        os.fsync(file)
+    except OSError:
+        pass
+    finally:
+        os.close(file)
