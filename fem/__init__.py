@@ -1,1 +1,1 @@
-"""Axisymmetric finite-element magnetostatics."""
+"""Axisymmetric nonlinear magnetostatics on quadratic triangles."""

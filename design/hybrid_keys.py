@@ -1,0 +1,172 @@
+"""The keys of a hybrid actuator's specification (Nakata and Noda 2023, Tables II and III, and what they leave out)."""
+
+from __future__ import annotations
+
+from fluxbore.design.keys import Alternatives, Key
+
+LARGEST_LENGTH = 10.0
+"""m; beyond it a length is a slip of the unit, not an actuator."""
+
+
+def _length(name: str, symbol: str, doc: str, *, default: float | None = None, zero: bool = False) -> Key:
+    above, minimum = (None, 0.0) if zero else (0.0, None)
+    return Key(
+        f"actuator.{name}", doc, symbol=symbol, above=above, minimum=minimum, maximum=LARGEST_LENGTH, default=default
+    )
+
+
+def _material(name: str, doc: str) -> Key:
+    return Key(f"actuator.{name}", doc, kind="word")
+
+
+HYBRID_KEYS: tuple[Key, ...] = (
+    Key("actuator.name", "name of the design; STEP files and report carry it", kind="word", default="hybrid actuator"),
+    _length("back_yoke.outer_diameter", "D", "back yoke outer diameter"),
+    _length("back_yoke.inner_diameter", "D_i", "back yoke inner diameter"),
+    _length("back_yoke.thickness", "(D - D_i)/2", "back yoke thickness"),
+    _length("back_yoke.length", "L", "back yoke length"),
+    _length("back_yoke.front_overhang", "L_f", "back yoke beyond the winding at the rod end", zero=True),
+    _length("back_yoke.back_overhang", "L_b", "back yoke beyond the winding at the cap end", zero=True),
+    _material("back_yoke.material", "soft iron of the back yoke"),
+    _length("winding.outer_diameter", "D_w", "winding outer diameter"),
+    _length("winding.yoke_clearance", "(D_i - D_w)/2", "radial room between winding and yoke for the leads", zero=True),
+    Key("actuator.winding.sets_per_phase", "coils of each phase", kind="integer", symbol="n_w", minimum=1, maximum=200),
+    Key("actuator.winding.turns", "turns of one phase", kind="number", symbol="N", above=0.0, maximum=1e6),
+    Key(
+        "actuator.winding.turns_density",
+        "turns per area of the winding's cross-section",
+        dimension="area density",
+        above=0.0,
+    ),
+    _length("winding.wire_diameter", "", "bare diameter of the wire"),
+    _material("winding.material", "conductor of the winding"),
+    _length("cylinder.outer_diameter", "D_c", "air cylinder outer diameter; the winding sits on it"),
+    _length("cylinder.inner_diameter", "D_c'", "air cylinder bore as drawn: for the field and the CAD"),
+    _length("cylinder.catalogue_bore", "", "nominal bore of the catalogue cylinder: for the pneumatic forces"),
+    _length("cylinder.length", "", "length of the cylinder tube"),
+    _material("cylinder.material", "material of the cylinder tube"),
+    _length("mover.pole_pitch", "tau", "pole pitch"),
+    _length("mover.ring_width", "tau_f", "axial thickness of the soft-magnetic rings between the magnets", zero=True),
+    _length("mover.magnet_thickness", "tau_m", "axial thickness of a magnet"),
+    Key("actuator.mover.pole_pairs", "pole pairs of the magnet array", kind="integer", symbol="p", minimum=1, maximum=50),
+    _length("mover.outer_diameter", "D_m", "magnet and ring outer diameter"),
+    _material("mover.magnet", "magnet grade: temperature coefficients, coercivity, density"),
+    Key(
+        "actuator.mover.remanence",
+        "remanence at 20 degC; without it the grade's",
+        dimension="flux density",
+        symbol="B_r",
+        above=0.0,
+        maximum=2.0,
+        optional=True,
+    ),
+    Key(
+        "actuator.mover.magnet_permeability",
+        "relative recoil permeability of the magnets",
+        kind="number",
+        symbol="mu_r",
+        minimum=1.0,
+        maximum=10.0,
+        default=1.05,
+    ),
+    _material("mover.ring_material", "soft iron of the rings"),
+    _length("mover.stroke", "L_mr", "stroke length"),
+    _length("shaft.outer_diameter", "D_s", "shaft outer diameter"),
+    _length("shaft.length", "L_s", "shaft length"),
+    _material("shaft.material", "shaft material; a magnetic one short-circuits the magnets"),
+    _length("piston.length", "", "axial length of each piston"),
+    _length("piston.fin_outer_diameter", "D_f", "seal fin outer diameter, before it is pressed into the bore"),
+    _length("piston.fin_inner_diameter", "d", "seal fin inner diameter, at its root"),
+    _length("piston.fin_length", "l", "seal fin axial length"),
+    _length("piston.fin_thickness", "", "seal fin wall thickness"),
+    _material("piston.material", "material of piston and seal fin"),
+    _length("end_caps.flange_diameter", "", "outer diameter of the end caps"),
+    _length("end_caps.flange_length", "", "axial length of an end cap outside the tube"),
+    _length("end_caps.port_diameter", "", "diameter of the air port in each end cap"),
+    _length("end_caps.rod_clearance", "", "radial clearance of the rod-end cap around the shaft", zero=True),
+    _material("end_caps.material", "material of the end caps"),
+    Key(
+        "operating_point.pressure",
+        "supply pressure of the pneumatic forces",
+        dimension="pressure",
+        minimum=-101_325.0,
+        maximum=1e9,
+        default=0.6e6,
+    ),
+    Key("operating_point.current", "amplitude of the balanced three-phase current", dimension="current", minimum=0.0, maximum=1e6, default=1.0),
+    Key(
+        "operating_point.winding_temperature",
+        "temperature of the winding, for its resistance",
+        dimension="temperature",
+        above=0.0,
+        maximum=1000.0,
+        default=293.15,
+    ),
+    Key(
+        "operating_point.magnet_temperature",
+        "temperature of the magnets, for remanence and coercivity",
+        dimension="temperature",
+        above=0.0,
+        maximum=1000.0,
+        default=293.15,
+    ),
+    Key(
+        "operating_point.first_position",
+        "cap-side end of the window of positions over which figures are averaged",
+        symbol="z",
+        default=0.024,
+    ),
+    Key("operating_point.last_position", "rod-side end of that window", symbol="z", default=0.031),
+    Key(
+        "operating_point.positions",
+        "number of equally spaced positions in the window, both ends included",
+        kind="integer",
+        minimum=1,
+        maximum=1000,
+        default=8,
+    ),
+    Key(
+        "solver.mesh_refinement",
+        "finite-element mesh: 1 is the default mesh, 2 halves every element, 3 thirds it",
+        kind="integer",
+        minimum=1,
+        maximum=6,
+        default=1,
+    ),
+    Key(
+        "solver.tolerance",
+        "relative residual at which Newton's iteration stops",
+        kind="number",
+        above=0.0,
+        maximum=1e-2,
+        default=1e-9,
+    ),
+    Key("solver.max_iterations", "most Newton steps per position", kind="integer", minimum=1, maximum=500, default=60),
+    Key(
+        "solver.factorisation",
+        "sparse factorisation",
+        kind="word",
+        choices=("banded", "superlu"),
+        default="banded",
+    ),
+)
+
+HYBRID_ALTERNATIVES: tuple[Alternatives, ...] = (
+    Alternatives(
+        ("actuator.back_yoke.outer_diameter", "actuator.back_yoke.inner_diameter", "actuator.back_yoke.thickness"),
+        2,
+        "D = D_i + 2 thickness",
+    ),
+    Alternatives(
+        ("actuator.back_yoke.length", "actuator.back_yoke.front_overhang", "actuator.back_yoke.back_overhang"),
+        2,
+        "L = L_f + L_b + the winding's length, 3 n_w coils of 2 tau / 3",
+    ),
+    Alternatives(
+        ("actuator.winding.outer_diameter", "actuator.winding.yoke_clearance"), 1, "D_w = D_i - 2 yoke_clearance"
+    ),
+    Alternatives(
+        ("actuator.winding.turns", "actuator.winding.turns_density"), 1, "turns = density x the phase's window area"
+    ),
+    Alternatives(("actuator.mover.ring_width", "actuator.mover.magnet_thickness"), 1, "tau_m = tau - tau_f"),
+)

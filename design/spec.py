@@ -1,0 +1,358 @@
+"""The specification: the only reader of spec files.
+
+A file becomes a `Spec`: the flat table of SI values at dotted keys, the study, and notes on what was assumed. Designs
+of a study are the same `Spec` with other values, so that everything downstream has one way in.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import tomllib
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from fluxbore.design import hybrid, hybrid_keys, materials
+from fluxbore.design.errors import SpecError
+from fluxbore.design.hybrid import HybridActuator
+from fluxbore.design.keys import Alternatives, Key, Value, Values
+from fluxbore.design.study import Study
+from fluxbore.design.study_reader import read_study
+
+LARGEST_FILE = 4_000_000
+"""Bytes; a specification is a page, so more than this is some other file."""
+
+
+@dataclass(frozen=True, slots=True)
+class Kind:
+    """A kind of actuator as the reader sees it: its keys, which exclude one another, and how values become parameters."""
+
+    name: str
+    keys: tuple[Key, ...]
+    alternatives: tuple[Alternatives, ...]
+    resolve: Callable[[Values], dict[str, Value]]
+    from_values: Callable[[Values], HybridActuator]
+
+    def key(self, name: str) -> Key | None:
+        return next((key for key in self.keys if key.name == name), None)
+
+
+KINDS: dict[str, Kind] = {
+    "hybrid": Kind(
+        "hybrid", hybrid_keys.HYBRID_KEYS, hybrid_keys.HYBRID_ALTERNATIVES, hybrid.resolve, hybrid.from_values
+    ),
+}
+"""Every kind of actuator a specification can describe."""
+
+
+@dataclass(frozen=True, slots=True)
+class Note:
+    """Where a value comes from when no source publishes it: ``status`` is "assumed" or "calibrated"."""
+
+    key: str
+    status: str
+    reason: str
+
+
+@dataclass(frozen=True)
+class Spec:
+    """A specification that has been read and checked.
+
+    given : dotted key -> SI value, as the file gives them, defaults included; alternatives not given are absent.
+    materials : the standard library with the file's own materials.
+    own_materials : the file's material tables as they stand in it, so that a design can be written out whole.
+    """
+
+    kind: Kind
+    given: Values
+    study: Study
+    notes: tuple[Note, ...]
+    materials: Mapping[str, materials.Material]
+    own_materials: Mapping[str, Any]
+
+    @cached_property
+    def values(self) -> Mapping[str, Value]:
+        """Every key with its value: the given ones and those that follow from them."""
+        return self.kind.resolve(self.given)
+
+    @cached_property
+    def actuator(self) -> HybridActuator:
+        """The parameters as frozen data. Raises DesignError where they cannot be built."""
+        return self.kind.from_values(self.values)
+
+    @property
+    def positions(self) -> tuple[float, ...]:
+        """The window of positions (m) over which figures are averaged."""
+        first, last = self.number("operating_point.first_position"), self.number("operating_point.last_position")
+        count = int(self.number("operating_point.positions"))
+        if count == 1:
+            return ((first + last) / 2,)
+        return tuple(first + (last - first) * i / (count - 1) for i in range(count))
+
+    def number(self, key: str) -> float:
+        """The SI value of a numeric key."""
+        return float(self.values[key])
+
+    def word(self, key: str) -> str:
+        return str(self.values[key])
+
+    def with_values(self, changes: Values) -> Spec:
+        """The same specification with other values at some keys, each checked against its key's limits.
+
+        A changed key takes the place of an alternative that was given; see `pinned`. Raises SpecError.
+        """
+        base = self.pinned(changes)
+        for name, value in changes.items():
+            _known(self.kind, name).check(value)
+        return replace(base, given={**base.given, **changes})
+
+    def pinned(self, keys: Iterable[str]) -> Spec:
+        """The same design, given by these keys where they are alternatives of others.
+
+        Pinning ``turns_density`` replaces a given ``turns`` by the density that it amounts to, so that the density
+        stays when the winding's height changes.
+        """
+        wanted = set(keys)
+        given = dict(self.given)
+        for group in self.kind.alternatives:
+            chosen = [key for key in group.keys if key in wanted]
+            if not chosen or all(key in given for key in chosen):
+                continue
+            if len(chosen) > group.count:
+                raise SpecError(
+                    f"The study is over-determined: at most {group.count} of {', '.join(group.keys)} can be held or "
+                    f"varied ({group.rule}); got {', '.join(chosen)}."
+                )
+            kept = [key for key in group.keys if key in given and key not in wanted]
+            stay = chosen + kept[: group.count - len(chosen)]
+            for key in group.keys:
+                given.pop(key, None)
+            given.update({key: self.values[key] for key in stay})
+        return replace(self, given=given)
+
+    def for_study(self) -> Spec:
+        """The start design as the study sees it: its held keys and variables are the ones that are given."""
+        return self.pinned((*self.study.hold, *(variable.key for variable in self.study.variables)))
+
+    def fingerprint(self) -> str:
+        """SHA-256 over everything that decides the result: values, materials and the study."""
+        content = {
+            "kind": self.kind.name,
+            "given": dict(sorted(self.given.items())),
+            "materials": self.own_materials,
+            "study": repr(self.study),
+        }
+        return hashlib.sha256(json.dumps(content, sort_keys=True, default=str).encode()).hexdigest()
+
+
+def load(path: Path | str, overrides: Mapping[str, str] | None = None) -> Spec:
+    """Read a specification file.
+
+    overrides : dotted key -> text, as ``--set`` takes them; an empty text removes the key.
+
+    Raises SpecError, DesignError or MaterialError with one sentence.
+    """
+    path = Path(path)
+    try:
+        with path.open("rb") as file:
+            content = file.read(LARGEST_FILE + 1)
+    except OSError as error:
+        raise SpecError(f"{path} cannot be read: {error.strerror or error}.") from error
+    if len(content) > LARGEST_FILE:
+        raise SpecError(f"{path} must be a specification of at most {LARGEST_FILE} bytes; it is larger.")
+    try:
+        text = content.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise SpecError(f"{path} must be a UTF-8 text; byte {error.start} is not.") from error
+    return loads(text, overrides, source=str(path), base=path.parent)
+
+
+def loads(
+    text: str, overrides: Mapping[str, str] | None = None, source: str = "the specification", base: Path | None = None
+) -> Spec:
+    """Read a specification from a text; ``base`` is the folder that file names in it are relative to."""
+    try:
+        raw = tomllib.loads(text)
+    except (tomllib.TOMLDecodeError, RecursionError) as error:
+        raise SpecError(f"{source} is not valid TOML: {error or 'too deeply nested'}.") from error
+    kind = _kind(raw, source)
+    for key, value in (overrides or {}).items():
+        _override(raw, key, value, kind)
+    kind = _kind(raw, source)
+    return _read(raw, kind, base or Path())
+
+
+def _kind(raw: Mapping[str, Any], source: str) -> Kind:
+    actuator = raw.get("actuator")
+    name = actuator.get("kind") if isinstance(actuator, dict) else None
+    known = ", ".join(f'"{kind}"' for kind in KINDS)
+    if name is None:
+        raise SpecError(f"{source} must hold actuator.kind, one of {known}; got none.")
+    if not isinstance(name, str) or name not in KINDS:
+        raise SpecError(f"actuator.kind must be one of {known}; got {name!r}.")
+    return KINDS[name]
+
+
+def _read(raw: Mapping[str, Any], kind: Kind, base: Path) -> Spec:
+    sections = {"actuator", "operating_point", "solver", "study", "materials"}
+    for section, content in raw.items():
+        if section not in sections:
+            raise SpecError(f"{section} is not a section of a specification; there are {', '.join(sorted(sections))}.")
+        if not isinstance(content, dict):
+            raise SpecError(f"{section} must be a section of keys; got {content!r}.")
+    own = raw.get("materials", {})
+    library = dict(materials.standard())
+    for name, table in own.items():
+        if not isinstance(table, dict):
+            raise SpecError(f"materials.{name} must be a section of keys; got {table!r}.")
+        library[name] = materials.from_table(name, table, f"materials.{name}", base)
+    given: dict[str, Value] = {}
+    notes: list[Note] = []
+    known = {key.name: key for key in kind.keys}
+    for section in ("actuator", "operating_point", "solver"):
+        _flatten(raw.get(section, {}), section, known, given, notes)
+    for group in kind.alternatives:
+        group.check(given)
+    excluded = {key for group in kind.alternatives for key in group.keys}
+    for key in kind.keys:
+        if key.name in given or key.name in excluded or key.optional:
+            continue
+        if key.default is None:
+            raise SpecError(f"{key.name} ({key.doc}) is missing.")
+        given[key.name] = key.default
+    spec = Spec(kind, given, Study(), tuple(notes), library, own)
+    _check_materials(spec)
+    _check_window(spec)
+    study = read_study(raw.get("study", {}), kind.keys, kind.alternatives, spec.values)
+    spec = replace(spec, study=study)
+    spec.for_study()
+    return spec
+
+
+def _flatten(
+    table: Mapping[str, Any], prefix: str, known: Mapping[str, Key], given: dict[str, Value], notes: list[Note]
+) -> None:
+    for leaf, raw in table.items():
+        name = f"{prefix}.{leaf}"
+        if name == "actuator.kind":
+            continue
+        key = known.get(name)
+        if key is None:
+            if isinstance(raw, dict) and any(other.startswith(name + ".") for other in known):
+                _flatten(raw, name, known, given, notes)
+                continue
+            raise SpecError(f"{name} is not a key of this specification{_suggestion(name, known)}.")
+        if isinstance(raw, dict):
+            raw = _annotated(name, raw, notes)
+        given[name] = key.read(raw)
+
+
+def _annotated(name: str, raw: Mapping[str, Any], notes: list[Note]) -> Any:
+    """The value of ``{ value = ..., assumed = "why" }``, with its note kept."""
+    status = [word for word in ("assumed", "calibrated") if word in raw]
+    if "value" not in raw or len(status) != 1 or len(raw) != 2 or not isinstance(raw[status[0]], str):
+        raise SpecError(
+            f'{name} must be a value or {{ value = ..., assumed = "reason" }} (or calibrated = "reason"); '
+            f"got the keys {', '.join(raw) or 'none'}."
+        )
+    notes.append(Note(name, status[0], raw[status[0]]))
+    return raw["value"]
+
+
+def _check_materials(spec: Spec) -> None:
+    for key in spec.kind.keys:
+        role = MATERIAL_ROLES.get(key.name)
+        if role is not None:
+            materials.lookup(spec.word(key.name), key.name, spec.materials, role)
+
+
+MATERIAL_ROLES: dict[str, type[materials.Material] | None] = {
+    "actuator.back_yoke.material": materials.Material,
+    "actuator.winding.material": materials.Conductor,
+    "actuator.cylinder.material": materials.Material,
+    "actuator.mover.magnet": materials.PermanentMagnet,
+    "actuator.mover.ring_material": materials.Material,
+    "actuator.shaft.material": materials.Material,
+    "actuator.piston.material": materials.Material,
+    "actuator.end_caps.material": materials.Material,
+}
+"""Which keys name materials, and what kind of material each needs."""
+
+
+def _check_window(spec: Spec) -> None:
+    actuator = spec.actuator
+    half = actuator.mover.stroke / 2
+    low, high = actuator.mid_stroke - half, actuator.mid_stroke + half
+    slack = 1e-9
+    for key in ("operating_point.first_position", "operating_point.last_position"):
+        value = spec.number(key)
+        if not low - slack <= value <= high + slack:
+            shown = _known(spec.kind, key).show
+            raise SpecError(f"{key} must lie within the stroke, {shown(low)} to {shown(high)}; got {shown(value)}.")
+    if spec.number("operating_point.last_position") < spec.number("operating_point.first_position"):
+        shown = _known(spec.kind, "operating_point.last_position").show
+        raise SpecError(
+            "operating_point.last_position must not be below operating_point.first_position "
+            f"{shown(spec.number('operating_point.first_position'))}; "
+            f"got {shown(spec.number('operating_point.last_position'))}."
+        )
+
+
+def _known(kind: Kind, name: str) -> Key:
+    key = kind.key(name)
+    if key is None:
+        raise SpecError(
+            f"{name} is not a key of this specification{_suggestion(name, {k.name: k for k in kind.keys})}."
+        )
+    return key
+
+
+def _suggestion(name: str, known: Mapping[str, Key]) -> str:
+    """A hint at the nearest key; difflib is imported only on this path, for the sake of start-up."""
+    import difflib
+
+    near = difflib.get_close_matches(name, known, n=1, cutoff=0.6)
+    if not near:
+        leaf = name.rpartition(".")[2]
+        near = [key for key in known if key.endswith("." + leaf)][:1]
+    return f"; did you mean {near[0]}?" if near else ""
+
+
+def _override(raw: dict[str, Any], key: str, text: str, kind: Kind) -> None:
+    """Put ``text`` at the dotted ``key`` of the raw tree; list items go by their number, from 0."""
+    *path, leaf = key.split(".")
+    table: Any = raw
+    for step in path:
+        if isinstance(table, list):
+            table = _item(table, step, key)
+        elif isinstance(table, dict):
+            table = table.setdefault(step, {})
+        if not isinstance(table, (dict, list)):
+            raise SpecError(f"{key} is not a key of this specification: {step} holds a value, not a section.")
+    known = kind.key(key)
+    if isinstance(table, list):
+        _item(table, leaf, key)
+        table[int(leaf)] = _literal(text)
+    elif text == "":
+        table.pop(leaf, None)
+    elif known is not None and known.kind == "word":
+        table[leaf] = text.strip("\"'")
+    else:
+        table[leaf] = _literal(text)
+
+
+def _item(table: list[Any], step: str, key: str) -> Any:
+    if not step.isdigit() or int(step) >= len(table):
+        raise SpecError(f"{key}: {step} must be an item's number from 0 to {len(table) - 1}; got {step}.")
+    return table[int(step)]
+
+
+def _literal(text: str) -> Any:
+    """A TOML value where the text is one (4, 1.05, [..]), else the text itself (27 mm)."""
+    try:
+        return tomllib.loads(f"value = {text}")["value"]
+    except (tomllib.TOMLDecodeError, RecursionError):
+        return text

@@ -1,0 +1,170 @@
+"""Quantities at the file's edge: ``"27 mm"`` becomes 0.027, and inside there are only SI floats.
+
+A quantity is a string of one number and one unit of the closed table below. The table is closed on purpose: a sweep
+that ran overnight because somebody's ``"0.4"`` was read as metres is worth more than the convenience of guessing.
+Pressures say whether they are gauge or absolute and are kept as gauge pressure; temperatures are kept in kelvin.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+from decimal import Decimal
+
+from fluxbore.design.errors import SpecError
+
+STANDARD_ATMOSPHERE = 101_325.0
+"""Pa, the difference between absolute and gauge pressure (ISO 2533, sea level)."""
+
+ZERO_CELSIUS = 273.15
+"""K, the temperature of 0 degC."""
+
+
+@dataclass(frozen=True, slots=True)
+class Unit:
+    """A unit as a straight line to SI: ``si = factor * number + offset``."""
+
+    factor: float
+    offset: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Dimension:
+    """A physical dimension with its closed table of units.
+
+    ``preferred`` is the unit of specification files and pictures; ``si`` names the unit of the stored float.
+    """
+
+    name: str
+    si: str
+    preferred: str
+    units: dict[str, Unit]
+
+
+def _scaled(**factors: float) -> dict[str, Unit]:
+    return {name: Unit(factor) for name, factor in factors.items()}
+
+
+def _pressures() -> dict[str, Unit]:
+    sizes = {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "bar": 1e5, "psi": 6894.757293168}
+    gauge = {f"{name} gauge": Unit(factor) for name, factor in sizes.items()}
+    absolute = {f"{name} absolute": Unit(factor, -STANDARD_ATMOSPHERE) for name, factor in sizes.items()}
+    return gauge | absolute
+
+
+DIMENSIONS: dict[str, Dimension] = {
+    dimension.name: dimension
+    for dimension in (
+        Dimension("length", "m", "mm", _scaled(mm=1e-3, um=1e-6, cm=1e-2, m=1.0) | {"in": Unit(0.0254)}),
+        Dimension("area density", "1/m^2", "1/mm^2", {"1/mm^2": Unit(1e6), "1/cm^2": Unit(1e4), "1/m^2": Unit(1.0)}),
+        Dimension("angle", "rad", "deg", _scaled(deg=math.pi / 180.0, rad=1.0)),
+        Dimension("flux density", "T", "T", _scaled(T=1.0, mT=1e-3, uT=1e-6) | {"G": Unit(1e-4)}),
+        Dimension("current", "A", "A", _scaled(A=1.0, mA=1e-3)),
+        Dimension("pressure", "Pa gauge", "MPa gauge", _pressures()),
+        Dimension("stress", "Pa", "MPa", _scaled(Pa=1.0, kPa=1e3, MPa=1e6, GPa=1e9)),
+        Dimension(
+            "temperature",
+            "K",
+            "degC",
+            {
+                "degC": Unit(1.0, ZERO_CELSIUS),
+                "K": Unit(1.0),
+                "degF": Unit(5.0 / 9.0, ZERO_CELSIUS - 32.0 * 5.0 / 9.0),
+            },
+        ),
+        Dimension("force", "N", "N", _scaled(N=1.0, kN=1e3, mN=1e-3)),
+        Dimension("force constant", "N/A", "N/A", {"N/A": Unit(1.0)}),
+        Dimension("motor constant", "N/sqrt(W)", "N/sqrt(W)", {"N/sqrt(W)": Unit(1.0)}),
+        Dimension("mass", "kg", "g", _scaled(kg=1.0, g=1e-3)),
+        Dimension("resistance", "ohm", "ohm", _scaled(ohm=1.0, mohm=1e-3)),
+        Dimension("electric loading", "A/m", "A/m", {"A/m": Unit(1.0), "kA/m": Unit(1e3), "A/mm": Unit(1e3)}),
+        Dimension("time", "s", "s", _scaled(s=1.0, ms=1e-3, min=60.0, h=3600.0)),
+        Dimension("volume", "m^3", "mm^3", {"mm^3": Unit(1e-9), "cm^3": Unit(1e-6), "m^3": Unit(1.0)}),
+        Dimension("density", "kg/m^3", "g/cm^3", {"kg/m^3": Unit(1.0), "g/cm^3": Unit(1e3), "kg/dm^3": Unit(1e3)}),
+        Dimension(
+            "field strength",
+            "A/m",
+            "kA/m",
+            {"A/m": Unit(1.0), "kA/m": Unit(1e3), "Oe": Unit(1e3 / (4 * math.pi)), "kOe": Unit(1e6 / (4 * math.pi))},
+        ),
+        Dimension(
+            "resistivity",
+            "ohm m",
+            "ohm m",
+            {"ohm m": Unit(1.0), "ohm mm^2/m": Unit(1e-6), "uohm cm": Unit(1e-8), "nohm m": Unit(1e-9)},
+        ),
+        Dimension("temperature coefficient", "1/K", "%/K", {"%/K": Unit(1e-2), "1/K": Unit(1.0)}),
+    )
+}
+"""Every dimension a specification can hold, by name; their unit tables are all the units there are."""
+
+_NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?")
+
+
+def parse_quantity(text: object, dimension: str, key: str) -> float:
+    """Read one number and one unit, ``"27 mm"``, and return the value in SI.
+
+    text : what the file holds at ``key``; anything but such a string is an error.
+    dimension : a name of `DIMENSIONS`.
+
+    Raises SpecError with the key, the units that would do, and what was found.
+    """
+    table = DIMENSIONS[dimension]
+    wanted = f"one number and one unit of {_listing(table)}, such as {example(dimension)}"
+    if not isinstance(text, str):
+        found = f"the bare number {text!r}" if _is_number(text) else f"{text!r}"
+        raise SpecError(f"{key} must be a {dimension}, {wanted}; got {found}.")
+    match = _NUMBER.match(text.strip())
+    if match is None:
+        raise SpecError(f'{key} must be a {dimension}, {wanted}; got "{text}".')
+    unit = " ".join(text.strip()[match.end() :].split())
+    if unit not in table.units:
+        missing = "without a unit" if not unit else f'with the unit "{unit}"'
+        hint = ""
+        if dimension == "pressure" and f"{unit} gauge" in table.units:
+            hint = f' (say "{unit} gauge" or "{unit} absolute")'
+        raise SpecError(f'{key} must be a {dimension}, {wanted}; got "{text}" {missing}{hint}.')
+    scale = table.units[unit]
+    # Decimal keeps "0.1 mm" at the float nearest to 1e-4: 0.1 * 1e-3 is one rounding away from it.
+    number = Decimal(match.group())
+    value = float(number * Decimal(repr(scale.factor))) + scale.offset
+    if not math.isfinite(value):
+        raise SpecError(f'{key} must be a finite {dimension}; got "{text}".')
+    return value
+
+
+def format_quantity(value: float, dimension: str, digits: int = 15) -> str:
+    """Write an SI value in the dimension's preferred unit, with up to ``digits`` significant digits.
+
+    Fifteen digits keep every decimal input as it was typed, and bring the value back to within one rounding.
+    """
+    table = DIMENSIONS[dimension]
+    unit = table.units[table.preferred]
+    return f"{(value - unit.offset) / unit.factor:.{digits}g} {table.preferred}"
+
+
+def in_preferred_unit(value: float, dimension: str) -> float:
+    """The number that stands before the preferred unit."""
+    unit = DIMENSIONS[dimension].units[DIMENSIONS[dimension].preferred]
+    return (value - unit.offset) / unit.factor
+
+
+def quantity_pattern(dimension: str) -> str:
+    """The regular expression (ECMA 262) that a JSON Schema uses for this dimension."""
+    units = "|".join(re.escape(unit).replace("\\ ", " +") for unit in DIMENSIONS[dimension].units)
+    return rf"^\s*[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?\s*({units})\s*$"
+
+
+def example(dimension: str) -> str:
+    """A quantity of this dimension as one would type it."""
+    numbers = {"length": "27", "pressure": "0.6", "temperature": "20", "flux density": "1.4", "angle": "30"}
+    return f'"{numbers.get(dimension, "1")} {DIMENSIONS[dimension].preferred}"'
+
+
+def _listing(table: Dimension) -> str:
+    return ", ".join(table.units)
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool)

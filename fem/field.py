@@ -1,0 +1,88 @@
+"""The field where one asks for it: at the mesh's nodes, on mesh lines, and as a map for pictures."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from fluxbore.fem.element import kernel
+from fluxbore.fem.magnetostatics import Solution
+from fluxbore.fem.mapped import MappedMesh
+from fluxbore.fem.mesh import Floats, Ints
+
+CORNERS_AND_MIDDLES = np.array(
+    [[1, 0, 0], [0, 1, 0], [0, 0, 1], [0.5, 0.5, 0], [0, 0.5, 0.5], [0.5, 0, 0.5]], dtype=float
+)
+"""(6, 3) barycentric coordinates of an element's six nodes."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FluxMap:
+    """A field on linear triangles, for drawing.
+
+    r, z : (n,) m. triangles : (m, 3). flux : (n,) ψ (Wb/rad); its contours are field lines. flux_density : (m,) |B| (T).
+    region : (m,) index of each triangle's region.
+    """
+
+    r: Floats
+    z: Floats
+    triangles: Ints
+    flux: Floats
+    flux_density: Floats
+    region: Ints
+
+
+def nodal_flux_density(solution: Solution, elements: Ints) -> tuple[Ints, Floats]:
+    """B recovered at the nodes of the given elements: (k,) node numbers and (k, 2) B in (r, z), tesla.
+
+    The mean over the elements that meet at a node, of one material only: B jumps across an iron's face, so pass
+    elements of one side. On the axis B_r is zero and B_z is the mean of ∂ψ/∂s, which the chart keeps at full order.
+    """
+    mesh = solution.problem.mesh
+    curl = kernel(mesh, elements, CORNERS_AND_MIDDLES).curl
+    nodes = mesh.elements[elements]
+    field = np.einsum("mqkn,mn->mqk", curl, solution.psi[nodes], optimize=True)
+    unique, place = np.unique(nodes, return_inverse=True)
+    place = place.ravel()
+    count = np.bincount(place)
+    b_z = np.bincount(place, field[..., 0].ravel()) / count
+    b_r = -np.bincount(place, field[..., 1].ravel()) / count
+    return unique, np.column_stack((b_r, b_z))
+
+
+def along_radius(solution: Solution, grid: MappedMesh, radius: float, outside: bool = True) -> tuple[Floats, Floats]:
+    """B along a mesh line of constant radius: z (k,) in m and B (k, 2) in (r, z), tesla.
+
+    outside : whether the elements just outside the line are asked, or those just inside it.
+    """
+    column = 2 * int(np.argmin(np.abs(grid.r_lines - radius)))
+    mesh = solution.problem.mesh
+    line = grid.r_nodes[column]
+    neighbour = grid.r_nodes[column + (2 if outside else -2)]
+    low, high = min(line, neighbour), max(line, neighbour)
+    corners = mesh.nodes[mesh.elements[:, :3], 0]
+    slack = 1e-9 * high
+    strip = np.flatnonzero(np.all((corners > low - slack) & (corners < high + slack), axis=1))
+    nodes, field = nodal_flux_density(solution, strip)
+    on_line = np.flatnonzero(np.abs(mesh.nodes[nodes, 0] - line) < slack)
+    order = on_line[np.argsort(mesh.nodes[nodes[on_line], 1])]
+    return mesh.nodes[nodes[order], 1], field[order]
+
+
+def flux_map(solution: Solution) -> FluxMap:
+    """Each quadratic triangle as four linear ones, with |B| at their middles."""
+    mesh = solution.problem.mesh
+    four = np.array([[0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]])
+    middles = CORNERS_AND_MIDDLES[four].mean(axis=1)
+    curl = kernel(mesh, None, middles).curl
+    field = np.einsum("mqkn,mn->mqk", curl, solution.psi[mesh.elements], optimize=True)
+    space = mesh.positions
+    return FluxMap(
+        space[:, 0],
+        space[:, 1],
+        mesh.elements[:, four].reshape(-1, 3),
+        solution.psi,
+        np.sqrt(np.sum(field**2, axis=-1)).ravel(),
+        np.repeat(mesh.region, 4),
+    )

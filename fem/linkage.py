@@ -1,0 +1,94 @@
+"""Coils as windows over the mesh, integrated exactly whether or not their ends are mesh lines.
+
+Mover and coils slide past one another, so coil ends cannot be mesh lines without the topology changing on the way.
+Magnetically a coil is air; only its load and its linkage, one and the same integral, need its outline.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from fluxbore.fem.element import shape
+from fluxbore.fem.magnetostatics import Solution
+from fluxbore.fem.mesh import Floats, Ints, Mesh
+from fluxbore.fem.problem import Circuit
+from fluxbore.geometry.cross_section import CoilWindow
+
+_GAUSS_POINTS, _GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(4)
+_UNIT_POINTS, _UNIT_WEIGHTS = (_GAUSS_POINTS + 1) / 2, _GAUSS_WEIGHTS / 2
+
+
+def circuits(mesh: Mesh, coils: Sequence[CoilWindow]) -> tuple[Circuit, ...]:
+    """One circuit for each name among the coils, in order of appearance."""
+    shells = {radii: _within(mesh, radii) for radii in {coil.r for coil in coils}}
+    density = {coil.circuit: np.zeros(mesh.nodes.shape[0]) for coil in coils}
+    for coil in coils:
+        density[coil.circuit] += coil_density(mesh, coil, shells[coil.r])
+    return tuple(Circuit(name, values) for name, values in density.items())
+
+
+def flux_linkages(solution: Solution) -> Floats:
+    """(k,) flux linkage (Wb) of each circuit of the solution's problem: 2π ∫ (turns/area) ψ dr dz."""
+    return np.array([2 * np.pi * circuit.density @ solution.psi for circuit in solution.problem.circuits])
+
+
+def coil_density(mesh: Mesh, coil: CoilWindow, candidates: Ints | None = None) -> Floats:
+    """(n,) ∫ φ_i (turns/area) dr dz over the window (turns times shape function, dimensionless).
+
+    The window's radii must be mesh lines; its ends may cut elements anywhere. Straight-sided elements only. Each
+    triangle is cut at its middle corner into two slabs in z, each slab is clipped to the window, and a Gauss rule of
+    four by four points integrates the quadratic shape functions times 1/r, to rounding for every practical radius.
+
+    candidates : the elements between the window's radii, where the caller knows them.
+    """
+    candidates = _within(mesh, coil.r) if candidates is None else candidates
+    triangle = mesh.nodes[mesh.elements[candidates, :3]]
+    heights = triangle[..., 1]
+    overlap = (heights.min(axis=1) < coil.z[1]) & (heights.max(axis=1) > coil.z[0])
+    touched, triangle = candidates[overlap], triangle[overlap]
+    order = np.argsort(triangle[..., 1], axis=1, kind="stable")
+    low, middle, high = (np.take_along_axis(triangle, order[:, [k], None], axis=1)[:, 0] for k in range(3))
+    total = np.zeros((touched.size, 6))
+    for start, end in ((low, middle), (middle, high)):
+        bottom = np.maximum(start[:, 1], coil.z[0])
+        top = np.minimum(end[:, 1], coil.z[1])
+        height = np.maximum(top - bottom, 0.0)
+        z = bottom[:, None] + height[:, None] * _UNIT_POINTS
+        left = _on_edge(low, high, z)
+        right = _on_edge(start, end, z)
+        s = left[..., None] + (right - left)[..., None] * _UNIT_POINTS
+        weight = (height[:, None] * np.abs(right - left) * _UNIT_WEIGHTS)[..., None] * _UNIT_WEIGHTS / np.sqrt(2 * s)
+        values = shape(_barycentric(triangle, s, np.broadcast_to(z[..., None], s.shape)))
+        total += np.einsum("mab,mabn->mn", weight, values, optimize=True)
+    density = np.bincount(mesh.elements[touched].ravel(), total.ravel(), mesh.nodes.shape[0])
+    return np.asarray(density * coil.turns / coil.area)
+
+
+def _within(mesh: Mesh, radii: tuple[float, float]) -> Ints:
+    """The elements between two radii (m) that are mesh lines."""
+    inner, outer = radii[0] ** 2 / 2, radii[1] ** 2 / 2
+    s = mesh.nodes[mesh.elements[:, :3], 0]
+    slack = 1e-9 * outer
+    return np.flatnonzero((s.min(axis=1) > inner - slack) & (s.max(axis=1) < outer + slack))
+
+
+def _on_edge(a: Floats, b: Floats, z: Floats) -> Floats:
+    """s (m, k) on the edge from a to b at heights z (m, k); the edge's start where it is level."""
+    rise = b[:, 1] - a[:, 1]
+    slope = np.divide(b[:, 0] - a[:, 0], rise, out=np.zeros_like(rise), where=rise > 0)
+    return np.asarray(a[:, [0]] + slope[:, None] * (z - a[:, [1]]))
+
+
+def _barycentric(triangle: Floats, s: Floats, z: Floats) -> Floats:
+    """Barycentric coordinates (m, ..., 3) of points in triangles (m, 3, 2)."""
+    expand = (slice(None),) + (None,) * (s.ndim - 1)
+    a, b, c = (triangle[:, k] for k in range(3))
+    area = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (c[:, 0] - a[:, 0]) * (b[:, 1] - a[:, 1])
+
+    def share(p: Floats, q: Floats) -> Floats:
+        cross = (p[:, 0][expand] - s) * (q[:, 1][expand] - z) - (q[:, 0][expand] - s) * (p[:, 1][expand] - z)
+        return np.asarray(cross / area[expand])
+
+    return np.stack((share(b, c), share(c, a), share(a, b)), axis=-1)

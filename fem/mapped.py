@@ -1,0 +1,129 @@
+"""Mapped meshes of fixed topology on a cross-section of rectangles.
+
+Every interval between two breakpoints gets a number of cells that depends on its name alone, never on its length, and
+nodes move linearly with the breakpoints. Figures are therefore smooth functions of the design, which a search needs;
+remeshing would put noise of its own size on them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from fluxbore.fem.mesh import Floats, Ints, Mesh, Topology
+from fluxbore.geometry.cross_section import Breakpoints, CrossSection
+
+
+@dataclass(frozen=True, slots=True)
+class Subdivision:
+    """How an interval is cut: number of cells, and the ratio of neighbouring cells' lengths.
+
+    growth : above 1 the cells grow away from the fine end(s). fine : "both", "start" or "end".
+    """
+
+    cells: int
+    growth: float = 1.0
+    fine: str = "both"
+
+    def fractions(self, refinement: int) -> Floats:
+        """(cells * refinement + 1,) from 0 to 1.
+
+        A refined mesh cuts every cell of the default mesh into equal parts, so that meshes are nested and their
+        results converge at a rate.
+        """
+        if self.fine == "both":
+            half = np.minimum(np.arange(self.cells), np.arange(self.cells)[::-1])
+            steps = self.growth**half
+        else:
+            steps = self.growth ** np.arange(self.cells, dtype=float)
+            steps = steps[::-1] if self.fine == "end" else steps
+        lines = np.concatenate(([0.0], np.cumsum(steps) / np.sum(steps)))
+        coarse = np.arange(self.cells + 1)
+        return np.interp(np.arange(self.cells * refinement + 1) / refinement, coarse, lines)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class MappedMesh:
+    """A mesh with the grid it came from.
+
+    r_lines, z_lines : the mesh lines in space (m), midside nodes left out.
+    r_nodes, z_nodes : node rows: every corner and midside coordinate (chart, m² and m). Node (i, j) of row i in z and
+    j in s has the number i * len(r_nodes) + j.
+    """
+
+    mesh: Mesh
+    r_lines: Floats
+    z_lines: Floats
+    r_nodes: Floats
+    z_nodes: Floats
+
+    def node(self, i: Ints | int, j: Ints | int) -> Ints:
+        """Number of the node in z row i and s column j."""
+        return np.asarray(i) * self.r_nodes.size + np.asarray(j)
+
+
+def mapped_mesh(
+    section: CrossSection, r_cells: Mapping[str, Subdivision], z_cells: Mapping[str, Subdivision], refinement: int = 1
+) -> MappedMesh:
+    """Mesh the cross-section; the cells of each interval follow from its name."""
+    r_lines, r_interval = _lines(section.r, r_cells, refinement)
+    z_lines, z_interval = _lines(section.z, z_cells, refinement)
+    s_nodes = _with_middles(r_lines**2 / 2)
+    z_nodes = _with_middles(z_lines)
+    topology, cell_of_element = _grid_topology(z_lines.size - 1, r_lines.size - 1)
+    s, z = np.meshgrid(s_nodes, z_nodes)
+    region = section.cells[np.ix_(z_interval, r_interval)].ravel()[cell_of_element]
+    mesh = Mesh("axisymmetric", np.column_stack((s.ravel(), z.ravel())), region, topology)
+    return MappedMesh(mesh, r_lines, z_lines, s_nodes, z_nodes)
+
+
+def _lines(points: Breakpoints, cells: Mapping[str, Subdivision], refinement: int) -> tuple[Floats, Ints]:
+    """All mesh lines, and the interval of every cell between them."""
+    lines, interval = [np.array(points.values[:1])], []
+    for k, name in enumerate(points.intervals):
+        a, b = points.values[k], points.values[k + 1]
+        piece = a + (b - a) * cells[name].fractions(refinement)[1:]
+        piece[-1] = b
+        lines.append(piece)
+        interval.append(np.full(piece.size, k))
+    return np.concatenate(lines), np.concatenate(interval)
+
+
+def _with_middles(lines: Floats) -> Floats:
+    nodes = np.empty(2 * lines.size - 1)
+    nodes[::2] = lines
+    nodes[1::2] = (lines[1:] + lines[:-1]) / 2
+    return nodes
+
+
+@lru_cache(maxsize=16)
+def _grid_topology(nz: int, nr: int) -> tuple[Topology, Ints]:
+    """Two triangles in each of nz x nr cells, diagonals alternating so that no direction is favoured.
+
+    Every node of the triangles is a node of the (2 nz + 1) x (2 nr + 1) grid. Nodes are numbered along r first: the
+    domain is long in z, so the matrix has a narrow band. The rim of the grid carries ψ = 0: the axis, and the far
+    boundary, which no flux crosses.
+    """
+    width = 2 * nr + 1
+    i, j = (grid.ravel() for grid in np.meshgrid(np.arange(nz), np.arange(nr), indexing="ij"))
+
+    def node(di: int, dj: int) -> Ints:
+        return np.asarray((2 * i + di) * width + 2 * j + dj)
+
+    a, b, c, d = node(0, 0), node(0, 2), node(2, 2), node(2, 0)
+    ab, bc, cd, da, middle = node(0, 1), node(1, 2), node(2, 1), node(1, 0), node(1, 1)
+    rising = np.stack(
+        (np.column_stack((a, b, c, ab, bc, middle)), np.column_stack((a, c, d, middle, cd, da))), axis=1
+    )
+    falling = np.stack(
+        (np.column_stack((a, b, d, ab, middle, da)), np.column_stack((b, c, d, bc, cd, middle))), axis=1
+    )
+    even = ((i + j) % 2 == 0)[:, None, None]
+    elements = np.where(even, rising, falling).reshape(-1, 6)
+    rows, columns = np.divmod(np.arange((2 * nz + 1) * width), width)
+    inside = (rows > 0) & (rows < 2 * nz) & (columns > 0) & (columns < width - 1)
+    freedom = np.where(inside, np.cumsum(inside) - 1, -1)
+    return Topology(elements, freedom), np.repeat(np.arange(nz * nr), 2)

@@ -1,0 +1,166 @@
+"""Tubular three-phase machines by finite elements: from a cross-section at each position to the machine's figures."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from fluxbore.design.materials import PermanentMagnet
+from fluxbore.fem.field import along_radius
+from fluxbore.fem.force import axial_force, incremental_thrust
+from fluxbore.fem.linkage import circuits, flux_linkages
+from fluxbore.fem.magnetostatics import Settings, Solution, solve
+from fluxbore.fem.mapped import MappedMesh, Subdivision, mapped_mesh
+from fluxbore.fem.mesh import Floats
+from fluxbore.fem.newton import Convergence
+from fluxbore.fem.problem import MagneticMaterial, Problem
+from fluxbore.fem.reluctivity import VACUUM_RELUCTIVITY, reluctivity_curve
+from fluxbore.geometry.cross_section import CrossSection, Region
+
+R_CELLS = {
+    "shaft": Subdivision(3),
+    "magnet": Subdivision(5, 1.3),
+    "clearance": Subdivision(1),
+    "cylinder": Subdivision(3),
+    "winding": Subdivision(3),
+    "yoke clearance": Subdivision(1),
+    "back yoke": Subdivision(3),
+    "near air": Subdivision(3, 1.5, "start"),
+    "far air": Subdivision(6, 1.8, "start"),
+}
+"""Cells of the default mesh along r, by what lies there."""
+
+Z_CELLS = {
+    "ring": Subdivision(4),
+    "half ring": Subdivision(2),
+    "magnet": Subdivision(8, 1.5),
+    "cap end": Subdivision(10, 1.35, "end"),
+    "rod end": Subdivision(10, 1.35, "start"),
+    "beyond cap end": Subdivision(7, 1.6, "end"),
+    "beyond rod end": Subdivision(7, 1.6, "start"),
+}
+"""Cells of the default mesh along z, by what lies there."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class TubularSolution:
+    """A machine's field at no current at one position, with the grid it lives on."""
+
+    position: float
+    section: CrossSection
+    grid: MappedMesh
+    solution: Solution
+
+    @property
+    def convergence(self) -> Convergence:
+        return self.solution.convergence
+
+    def thrust_constants(self) -> Floats:
+        """(3,) incremental thrust per ampere in each phase (N/A), by the stress tensor."""
+        return incremental_thrust(self.solution, self.section.force_annulus)
+
+    def cogging_force(self) -> float:
+        """Axial force on the mover at no current (N)."""
+        return axial_force(self.solution, self.section.force_annulus)
+
+    def flux_linkages(self) -> Floats:
+        """(3,) of the phases at no current (Wb)."""
+        return flux_linkages(self.solution)
+
+
+def magnetic_material(region: Region) -> MagneticMaterial:
+    """How the solver sees a region."""
+    if region.material is None:
+        return MagneticMaterial()
+    if isinstance(region.material, PermanentMagnet):
+        return MagneticMaterial(VACUUM_RELUCTIVITY / region.recoil_permeability, (0.0, region.remanence))
+    if region.material.curve is not None:
+        return MagneticMaterial(curve=reluctivity_curve(region.material.curve))
+    return MagneticMaterial()
+
+
+def solve_positions(
+    section_at: Callable[[float], CrossSection],
+    positions: Sequence[float],
+    settings: Settings | None = None,
+    refinement: int = 1,
+) -> list[TubularSolution]:
+    """The field at no current at each position.
+
+    The mesh moves with the mover, so each position begins from the last one's field, which saves half of the Newton
+    steps. Stops at the first position that does not converge; the last item then says so.
+    """
+    solved: list[TubularSolution] = []
+    for position in positions:
+        section = section_at(position)
+        grid = mapped_mesh(section, R_CELLS, Z_CELLS, refinement)
+        problem = Problem(
+            grid.mesh, tuple(magnetic_material(region) for region in section.regions), circuits(grid.mesh, section.coils)
+        )
+        same = solved and solved[-1].grid.mesh.topology is grid.mesh.topology
+        start = solved[-1].solution.psi if same else None
+        solution = solve(problem, settings, start)
+        solved.append(TubularSolution(position, section, grid, solution))
+        if not solution.convergence.converged:
+            break
+    return solved
+
+
+def space_vector(phases: Floats) -> complex:
+    """Amplitude-invariant Clarke vector α + jβ of three phase values U, V, W."""
+    a = np.exp(2j * np.pi / 3)
+    return complex(2 / 3 * (phases[0] + a * phases[1] + a**2 * phases[2]))
+
+
+def stray_field(tubular: TubularSolution, radius: float, z_range: tuple[float, float]) -> float:
+    """Largest |B| (T) on a cylinder of this radius, a mesh line, between two z (m)."""
+    z, field = along_radius(tubular.solution, tubular.grid, radius)
+    size = np.linalg.norm(field, axis=1)
+    ends = np.interp(z_range, z, size)
+    inside = size[(z > z_range[0]) & (z < z_range[1])]
+    return float(max(ends.max(), inside.max(initial=0.0)))
+
+
+def tube_flux_density(tubular: TubularSolution, r_range: tuple[float, float], z_range: tuple[float, float]) -> float:
+    """Largest axial flux density averaged over a tube's cross-section (T), along z.
+
+    The flux through the tube between two radii is 2π (ψ_o − ψ_i), its area 2π (s_o − s_i).
+    """
+    grid, psi = tubular.grid, tubular.solution.psi
+    inner, outer = (2 * int(np.argmin(np.abs(grid.r_lines - r))) for r in r_range)
+    rows = np.flatnonzero((grid.z_nodes > z_range[0]) & (grid.z_nodes < z_range[1]))
+    flux = psi[grid.node(rows, outer)] - psi[grid.node(rows, inner)]
+    return float(np.abs(flux).max() / (grid.r_nodes[outer] - grid.r_nodes[inner]))
+
+
+def shell_flux_density(tubular: TubularSolution, radius: float, z_range: tuple[float, float]) -> float:
+    """Mean radial flux density (T) through a cylinder of this radius, a mesh line, between two z (m).
+
+    The flux out of the shell is 2π times the difference of ψ between its rims.
+    """
+    grid, psi = tubular.grid, tubular.solution.psi
+    column = 2 * int(np.argmin(np.abs(grid.r_lines - radius)))
+    rows = np.arange(grid.z_nodes.size)
+    profile = psi[grid.node(rows, column)]
+    start, end = np.interp(z_range, grid.z_nodes, profile)
+    return float(abs(end - start) / (radius * (z_range[1] - z_range[0])))
+
+
+def demagnetised_fraction(tubular: TubularSolution, intrinsic_coercivity: float) -> float:
+    """Share of the magnets' volume in which the field against the magnetisation exceeds the coercivity (A/m)."""
+    solution = tubular.solution
+    mesh = solution.problem.mesh
+    volume = beyond = 0.0
+    for index, material in enumerate(solution.problem.materials):
+        remanence = material.remanence[1]
+        if remanence == 0.0:
+            continue
+        elements = np.flatnonzero(mesh.region == index)
+        b_along = solution.flux_density(elements)[..., 0] * np.sign(remanence)
+        reverse = -material.reluctivity * (b_along - abs(remanence))
+        weight = solution.system.kernel.weight[elements]
+        volume += float(weight.sum())
+        beyond += float(weight[reverse > intrinsic_coercivity].sum())
+    return beyond / volume if volume else 0.0

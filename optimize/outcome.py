@@ -1,0 +1,103 @@
+"""What a study found: frozen data that the search and the sweeps make and the report reads."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from fluxbore.design.study import Sweep
+from fluxbore.optimize.evaluation import Evaluation
+
+
+@dataclass(frozen=True, slots=True)
+class Limit:
+    """A constraint with its limit as a number.
+
+    subject : a figure's name or a dotted key; sense : "<=" or ">="; limit : SI.
+    """
+
+    subject: str
+    sense: str
+    limit: float
+
+
+@dataclass(frozen=True, slots=True)
+class Check:
+    """A limit held against a design. ``value`` is None where the route cannot give the figure.
+
+    margin : positive where the limit holds with room to spare, relative to the limit's size; active : within the
+    search's tolerance of the limit.
+    """
+
+    limit: Limit
+    value: float | None
+    margin: float | None
+    satisfied: bool
+    active: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Candidate:
+    """A design of the study: the values of its variables (SI), its evaluation, and the limits held against it."""
+
+    values: Mapping[str, float]
+    evaluation: Evaluation
+    objective: float | None
+    checks: tuple[Check, ...]
+
+    @property
+    def feasible(self) -> bool:
+        """Whether the design is sound and every limit that could be checked holds."""
+        return self.evaluation.ok and all(check.satisfied for check in self.checks)
+
+
+@dataclass(frozen=True, slots=True)
+class SearchResult:
+    """The search from beginning to end.
+
+    history : every FEM design in the order it was asked for; best_so_far : index into it of the best feasible one
+    after each step (None before there was one).
+    network_start : the network's own optimum, where the FEM search began.
+    rounded : the best design at the workshop's resolution, re-evaluated; None where no variable has a resolution.
+    stop_reason : a sentence.
+    """
+
+    start: Candidate
+    network_start: Candidate | None
+    history: tuple[Candidate, ...]
+    best_so_far: tuple[int | None, ...]
+    best: Candidate | None
+    rounded: Candidate | None
+    stop_reason: str
+    seconds: float
+
+    @property
+    def chosen(self) -> Candidate | None:
+        """The design to make: the rounded one where it is feasible, else the best."""
+        return self.rounded if self.rounded is not None and self.rounded.feasible else self.best
+
+
+@dataclass(frozen=True, slots=True)
+class SweepRow:
+    """One design of a sweep: the swept keys' values (SI) and its evaluation."""
+
+    values: Mapping[str, float]
+    evaluation: Evaluation
+
+
+@dataclass(frozen=True, slots=True)
+class SweepResult:
+    """A sweep's rows in grid order."""
+
+    sweep: Sweep
+    rows: tuple[SweepRow, ...]
+
+    def best(self, figure: str, maximise: bool = True) -> SweepRow | None:
+        """The row with the largest (or smallest) figure among the sound ones."""
+        sound = [
+            row for row in self.rows if row.evaluation.ok and getattr(row.evaluation.performance, figure) is not None
+        ]
+        if not sound:
+            return None
+        sign = 1.0 if maximise else -1.0
+        return max(sound, key=lambda row: sign * getattr(row.evaluation.performance, figure))
