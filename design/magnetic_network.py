@@ -15,12 +15,12 @@ with
     R_m'  = shaft tube beside gap tube
 
 The parts of R_m' are not given in the paper. The shaft is a straight tube under the magnet, of reluctance
-tau_m / (mu_0 mu_s pi D_s^2 / 4). The gap tube is the annulus from D_m to D_c where no ring's tube stands already, over a
-length l = tau_m - 2 g_ac; the magnet's potential U falls evenly along it, so the tube stores the energy of a field
-U / tau_m over l, which is a reluctance tau_m^2 / (mu_0 l pi (D_c^2 - D_m^2) / 4). Compared with the Laplace field of that
-same potential between mover and yoke and in the shaft (Table II, infinitely permeable iron): R_g is right to 2 % for
-the flux that reaches the yoke; the magnet's load is 12 % too large, which lowers B_g0; and the thrust (2) is 2 % above
-that of the field's fundamental at the winding's mean diameter.
+tau_m / (mu_0 mu_s pi D_s^2 / 4). The gap tube is the annulus from D_m to D_c where no ring's tube stands already,
+over a length l = tau_m - 2 g_ac; the magnet's potential U falls evenly along it, so the tube stores the energy of a
+field U / tau_m over l, which is a reluctance tau_m^2 / (mu_0 l pi (D_c^2 - D_m^2) / 4). Compared with the Laplace
+field of that same potential between mover and yoke and in the shaft (Table II, infinitely permeable iron): R_g is
+right to 2 % for the flux that reaches the yoke; the magnet's load is 12 % too large, which lowers B_g0; and the thrust
+(2) is 2 % above that of the field's fundamental at the winding's mean diameter.
 
 Valid for tau_f + 2 g_ac <= tau, beyond which the rings' tubes would overlap (`MagneticNetwork.tubes_overlap`).
 
@@ -197,7 +197,7 @@ def _solved(
         gap_flux_density=B_g0,
         electric_loading=K_sp,
         force_constant=force,
-        ring_flux_density=2 * gap_flux / (math.pi * D_m * tau_f) if tau_f > 0 else None,
+        ring_flux_density=2 * gap_flux / (math.pi * D_m * tau_f) if tau_f > 1e-9 * tau else None,
         yoke_flux_density=gap_flux / yoke_area,
         magnet_flux_density=(F_rem - ring_drop) / R_m / magnet_area,
         magnet_field=-ring_drop / tau_m,

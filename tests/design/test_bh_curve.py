@@ -33,12 +33,12 @@ def test_every_table_that_rises_like_a_material_is_taken(table: tuple[list[float
     assert BHCurve("x", curve.b, curve.h, "made up") == curve
 
 
-@given(tables(), st.data(), st.sampled_from(["b", "h"]))
+@given(tables(), st.data(), st.sampled_from(["b", "h"]), st.booleans())
 def test_a_point_at_or_below_the_one_before_is_named(
-    table: tuple[list[float], list[float]], data: st.DataObject, which: str
+    table: tuple[list[float], list[float]], data: st.DataObject, which: str, from_origin: bool
 ) -> None:
     """Catches a guard that looks only at one column, at neighbours in one direction, or that miscounts the rows."""
-    b, h = table
+    b, h = ([0.0, *column] if from_origin else column for column in table)
     row = data.draw(st.integers(1, len(b) - 1))
     share = data.draw(st.floats(0.0, 1.0))
     column = b if which == "b" else h
@@ -48,12 +48,12 @@ def test_a_point_at_or_below_the_one_before_is_named(
     assert str(caught.value).endswith(f"got B = {b[row]:.6g} T, H = {h[row]:.6g} A/m.")
 
 
-@given(tables(), st.floats(0.01, 0.99))
+@given(tables(), st.floats(0.01, 0.99), st.booleans())
 def test_a_segment_flatter_than_the_vacuum_is_refused(
-    table: tuple[list[float], list[float]], permeability: float
+    table: tuple[list[float], list[float]], permeability: float, from_origin: bool
 ) -> None:
-    """Catches a table in the wrong unit (kA/m or gauss), which is monotone yet no material's."""
-    b, h = table
+    """Catches a table in the wrong unit (kA/m or gauss), monotone yet no material's; with and without the origin."""
+    b, h = ([0.0, *column] if from_origin else column for column in table)
     b.append(b[-1] + MU_0 * permeability * 1e4)
     h.append(h[-1] + 1e4)
     with pytest.raises(MaterialError, match=rf"row {len(b)} must rise .* as steeply as the vacuum"):
