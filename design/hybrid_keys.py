@@ -139,7 +139,7 @@ HYBRID_KEYS: tuple[Key, ...] = (
         kind="number",
         above=0.0,
         maximum=1e-2,
-        default=1e-9,
+        default=1e-8,
     ),
     Key("solver.max_iterations", "most Newton steps per position", kind="integer", minimum=1, maximum=500, default=60),
     Key(

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from decimal import Decimal
 
 from fluxbore.design.errors import SpecError
 from fluxbore.design.units import DIMENSIONS, format_quantity, parse_quantity
@@ -120,7 +121,14 @@ class Alternatives:
 
 
 def _exact(value: float, dimension: str) -> str:
-    """The shortest text whose reading gives this very float back, else the closest with 17 digits."""
+    """A text whose reading gives this very float back where the unit is a decimal one, else the closest of 17 digits."""
+    preferred = DIMENSIONS[dimension].preferred
+    unit = DIMENSIONS[dimension].units[preferred]
+    if unit.offset == 0.0:
+        number = Decimal(repr(float(value))) / Decimal(repr(unit.factor))
+        text = f"{number.normalize():g} {preferred}"
+        if parse_quantity(text, dimension, "value") == value:
+            return text
     for digits in (6, 9, 12, 15, 16, 17):
         text = format_quantity(value, dimension, digits)
         if parse_quantity(text, dimension, "value") == value:

@@ -115,6 +115,37 @@ def factorise(pattern: Pattern, values: Floats, method: Method = "banded") -> Fa
     return BandedCholesky(pattern, values) if method == "banded" else SuperLU(pattern, values)
 
 
+class Corrected:
+    """A matrix solved with the factor of a neighbour: conjugate gradients preconditioned by that factor.
+
+    After Newton's last step the factor at hand belongs to a field that differs by next to nothing, so two or three
+    iterations give full accuracy for a tenth of a factorisation.
+    """
+
+    LIMIT = 12
+    """Iterations after which a factorisation of its own is cheaper."""
+
+    def __init__(self, pattern: Pattern, values: Floats, neighbour: Factor, method: Method) -> None:
+        self._pattern, self._values, self._factor, self._method = pattern, values, neighbour, method
+
+    def solve(self, right: Floats) -> Floats:
+        x = np.zeros_like(right)
+        r = right
+        goal = 1e-13 * float(np.linalg.norm(right))
+        direction, before = x, 1.0
+        for iteration in range(self.LIMIT):
+            if float(np.linalg.norm(r)) <= goal:
+                return x
+            z = self._factor.solve(r)
+            now = float(r @ z)
+            direction = z if iteration == 0 else z + (now / before) * direction
+            image = self._pattern.multiply(self._values, direction)
+            step = now / float(direction @ image)
+            x, r, before = x + step * direction, r - step * image, now
+        self._factor = factorise(self._pattern, self._values, self._method)
+        return self._factor.solve(right)
+
+
 class BandedCholesky:
     """LAPACK's banded Cholesky: time n·b², memory n·b for n unknowns of half bandwidth b."""
 

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from fluxbore.fem.element import Kernel, flux_density_squared, kernel, stiffness
-from fluxbore.fem.linear import Factor, Method, factorise
+from fluxbore.fem.linear import Corrected, Factor, Method, factorise
 from fluxbore.fem.mesh import Floats, Ints
 from fluxbore.fem.newton import Convergence, newton
 from fluxbore.fem.problem import Problem
@@ -18,7 +18,7 @@ from fluxbore.fem.problem import Problem
 class Settings:
     """Of the nonlinear solver. tolerance : of the residual relative to the load."""
 
-    tolerance: float = 1e-9
+    tolerance: float = 1e-8
     max_iterations: int = 60
     method: Method = "banded"
 
@@ -140,12 +140,15 @@ class Solution:
     convergence: Convergence
     system: System
     method: Method
+    last_factor: Factor | None
 
     @cached_property
     def tangent(self) -> Factor:
-        """The factorised tangent at the solution: one back-substitution gives any incremental figure."""
-        unknowns = self.psi[self.system.inner]
-        return factorise(self.system.pattern, self.system.tangent_values(unknowns), self.method)
+        """The tangent at the solution, ready to solve with: one solution gives any incremental figure."""
+        values = self.system.tangent_values(self.psi[self.system.inner])
+        if self.last_factor is None:
+            return factorise(self.system.pattern, values, self.method)
+        return Corrected(self.system.pattern, values, self.last_factor, self.method)
 
     def flux_density(self, elements: Ints | None = None) -> Floats:
         """(m, q, 2) B in the kernel's frame, at the quadrature points of all or of some elements."""
@@ -164,7 +167,7 @@ def solve(problem: Problem, settings: Settings | None = None, start: Floats | No
     settings = settings or Settings()
     system = System(problem)
     first = np.zeros(system.inner.size) if start is None else start[system.inner]
-    unknowns, convergence = newton(
+    unknowns, convergence, factor = newton(
         system.residual,
         lambda x: factorise(system.pattern, system.tangent_values(x), settings.method),
         first,
@@ -172,4 +175,4 @@ def solve(problem: Problem, settings: Settings | None = None, start: Floats | No
         settings.tolerance,
         settings.max_iterations,
     )
-    return Solution(problem, system.spread(unknowns), convergence, system, settings.method)
+    return Solution(problem, system.spread(unknowns), convergence, system, settings.method, factor)

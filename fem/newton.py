@@ -47,25 +47,28 @@ def newton(
     scale: float,
     tolerance: float,
     max_iterations: int,
-) -> tuple[Floats, Convergence]:
+) -> tuple[Floats, Convergence, Factor | None]:
     """Solve residual(x) = 0 from ``start``.
 
     tangent : factorises d residual / dx, symmetric positive definite. scale : the norm that residuals are relative to.
 
-    Returns the last x with how it ended; raises nothing for a failure.
+    Returns the last x, how it ended, and the last tangent's factor (None where the start was good enough); raises
+    nothing for a failure.
     """
     x = start
+    factor: Factor | None = None
     r = residual(x)
     size = float(np.linalg.norm(r))
     for iteration in range(max_iterations):
         if not np.isfinite(size):
-            return x, Convergence("stalled", iteration, float("inf"))
+            return x, Convergence("stalled", iteration, float("inf")), factor
         if size <= tolerance * scale:
-            return x, Convergence("converged", iteration, size / scale if scale else 0.0)
+            return x, Convergence("converged", iteration, size / scale if scale else 0.0), factor
         try:
-            step = tangent(x).solve(-r)
+            factor = tangent(x)
+            step = factor.solve(-r)
         except SingularMatrixError:
-            return x, Convergence("singular matrix", iteration, size / scale)
+            return x, Convergence("singular matrix", iteration, size / scale), factor
         length = 1.0
         while True:
             trial = x + length * step
@@ -76,7 +79,7 @@ def newton(
                 break
             length /= 2
             if length < SHORTEST_STEP:
-                return x, Convergence("stalled", iteration + 1, size / scale)
+                return x, Convergence("stalled", iteration + 1, size / scale), factor
         x, r, size = trial, r_trial, size_trial
     status: Status = "converged" if size <= tolerance * scale else "iteration limit"
-    return x, Convergence(status, max_iterations, size / scale)
+    return x, Convergence(status, max_iterations, size / scale), factor

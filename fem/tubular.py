@@ -33,9 +33,9 @@ R_CELLS = {
 """Cells of the default mesh along r, by what lies there."""
 
 Z_CELLS = {
-    "ring": Subdivision(4),
-    "half ring": Subdivision(2),
-    "magnet": Subdivision(8, 1.5),
+    "ring": Subdivision(6, 1.6),
+    "half ring": Subdivision(3),
+    "magnet": Subdivision(6, 1.8),
     "cap end": Subdivision(10, 1.35, "end"),
     "rod end": Subdivision(10, 1.35, "start"),
     "beyond cap end": Subdivision(7, 1.6, "end"),
@@ -89,8 +89,9 @@ def solve_positions(
 ) -> list[TubularSolution]:
     """The field at no current at each position.
 
-    The mesh moves with the mover, so each position begins from the last one's field, which saves half of the Newton
-    steps. Stops at the first position that does not converge; the last item then says so.
+    The mesh moves with the mover, so the field at its nodes changes smoothly with position: each position begins from
+    the polynomial through the last three, and one Newton step is then enough. Stops at the first position that does
+    not converge; the last item then says so.
     """
     solved: list[TubularSolution] = []
     for position in positions:
@@ -99,13 +100,24 @@ def solve_positions(
         problem = Problem(
             grid.mesh, tuple(magnetic_material(region) for region in section.regions), circuits(grid.mesh, section.coils)
         )
-        same = solved and solved[-1].grid.mesh.topology is grid.mesh.topology
-        start = solved[-1].solution.psi if same else None
-        solution = solve(problem, settings, start)
+        solution = solve(problem, settings, _predicted(solved[-3:], position, grid))
         solved.append(TubularSolution(position, section, grid, solution))
         if not solution.convergence.converged:
             break
     return solved
+
+
+def _predicted(before: Sequence[TubularSolution], position: float, grid: MappedMesh) -> Floats | None:
+    """Nodal ψ at a position from the ones before by Lagrange's polynomial; None where there are none on this mesh."""
+    known = [item for item in before if item.grid.mesh.topology is grid.mesh.topology and item.position != position]
+    if not known:
+        return None
+    psi = np.zeros(grid.mesh.nodes.shape[0])
+    for item in known:
+        others = [other.position for other in known if other is not item]
+        weight = np.prod([(position - z) / (item.position - z) for z in others]) if others else 1.0
+        psi += weight * item.solution.psi
+    return psi
 
 
 def space_vector(phases: Floats) -> complex:

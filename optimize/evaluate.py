@@ -166,7 +166,7 @@ def _linkage_constant(positions: tuple[PositionResult, ...], pole_pitch: float) 
     from fluxbore.fem.tubular import space_vector
 
     turned = [
-        space_vector(np.array(item.flux_linkages)) * cmath.exp(1j * pi * item.position / pole_pitch)
+        space_vector(np.array(item.flux_linkages)) * cmath.exp(-1j * pi * item.position / pole_pitch)
         for item in positions
     ]
     return 1.5 * pi / pole_pitch * abs(sum(turned) / len(turned))

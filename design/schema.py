@@ -1,0 +1,123 @@
+"""The JSON Schema of a specification, so that editors complete and check it while one types."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+from fluxbore.design.keys import Key
+from fluxbore.design.material_table import schema as material_schema
+from fluxbore.design.performance import FIGURES
+from fluxbore.design.spec import KINDS
+from fluxbore.design.study import ALGORITHMS
+from fluxbore.design.units import DIMENSIONS, example, quantity_pattern
+
+
+def json_schema() -> dict[str, Any]:
+    """The schema (JSON Schema draft 2020-12) of every kind of actuator's specification."""
+    kinds = [_of_kind(kind.name, kind.keys) for kind in KINDS.values()]
+    return {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "fluxbore specification",
+        **(kinds[0] if len(kinds) == 1 else {"oneOf": kinds}),
+    }
+
+
+def _of_kind(name: str, keys: tuple[Key, ...]) -> dict[str, Any]:
+    tree: dict[str, Any] = {"type": "object", "properties": {}, "additionalProperties": False}
+    for key in keys:
+        node = tree
+        for step in key.section.split("."):
+            node = node["properties"].setdefault(
+                step, {"type": "object", "properties": {}, "additionalProperties": False}
+            )
+        node["properties"][key.leaf] = _annotatable(key)
+    tree["properties"]["actuator"]["properties"]["kind"] = {"const": name}
+    tree["properties"]["actuator"]["required"] = ["kind"]
+    tree["properties"]["materials"] = {"type": "object", "additionalProperties": material_schema()}
+    tree["properties"]["study"] = _study([key.name for key in keys if key.kind != "word"])
+    tree["required"] = ["actuator"]
+    return tree
+
+
+def _annotatable(key: Key) -> dict[str, Any]:
+    """The key's value, plain or with the reason why it is assumed or calibrated."""
+    value = _value(key)
+    noted = [
+        {
+            "type": "object",
+            "properties": {"value": value, status: {"type": "string"}},
+            "required": ["value", status],
+            "additionalProperties": False,
+        }
+        for status in ("assumed", "calibrated")
+    ]
+    symbol = f" ({key.symbol})" if key.symbol else ""
+    return {"description": key.doc + symbol, "anyOf": [value, *noted]}
+
+
+def _value(key: Key) -> dict[str, Any]:
+    if key.kind == "quantity":
+        return _quantity(key.dimension)
+    if key.kind == "word":
+        return {"type": "string", "enum": list(key.choices)} if key.choices else {"type": "string", "minLength": 1}
+    limits = {"exclusiveMinimum": key.above, "minimum": key.minimum, "maximum": key.maximum}
+    kind = "integer" if key.kind == "integer" else "number"
+    return {"type": kind, **{name: limit for name, limit in limits.items() if limit is not None}}
+
+
+def _quantity(dimension: str) -> dict[str, Any]:
+    units = ", ".join(DIMENSIONS[dimension].units)
+    return {
+        "type": "string",
+        "pattern": quantity_pattern(dimension),
+        "description": f"{dimension}: one number and one of {units}",
+        "examples": [example(dimension).strip('"')],
+    }
+
+
+def _study(numeric: Iterable[str]) -> dict[str, Any]:
+    bound = {"type": ["string", "number"]}
+    key = {"enum": list(numeric)}
+    axis = _table({"key": key, "from": bound, "to": bound, "step": bound, "values": {"type": "array", "items": bound}})
+    figure = {"enum": list(FIGURES)}
+    return _table(
+        {
+            "objective": {"enum": [f"{verb} {name}" for verb in ("maximise", "minimise") for name in FIGURES]},
+            "hold": {"type": "array", "items": {"type": "string"}},
+            "variables": _tables(
+                {"key": key, "lower": bound, "upper": bound, "resolution": bound}, ("key", "lower", "upper")
+            ),
+            "constraints": _tables({"figure": figure, "key": key, "upper": bound, "lower": bound}, ()),
+            "sweeps": _tables(
+                {
+                    "name": {"type": "string"},
+                    "axes": {"type": "array", "items": axis, "minItems": 1},
+                    "published_optimum": bound,
+                    "source": {"type": "string"},
+                },
+                ("axes",),
+            ),
+            "search": _table(
+                {
+                    "algorithm": {"enum": list(ALGORITHMS)},
+                    "max_evaluations": {"type": "integer", "minimum": 1},
+                    "relative_tolerance": {"type": "number", "exclusiveMinimum": 0, "maximum": 0.5},
+                    "seed": {"type": "integer", "minimum": 0},
+                }
+            ),
+        }
+    )
+
+
+def _table(properties: dict[str, Any], required: tuple[str, ...] = ()) -> dict[str, Any]:
+    return {
+        "type": "object",
+        "properties": properties,
+        "required": list(required),
+        "additionalProperties": False,
+    }
+
+
+def _tables(properties: dict[str, Any], required: tuple[str, ...]) -> dict[str, Any]:
+    return {"type": "array", "items": _table(properties, required)}

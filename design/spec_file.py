@@ -1,0 +1,119 @@
+"""Writes specifications: a design found by a study as a file of its own, and the commented templates."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from fluxbore.design.errors import SpecError
+from fluxbore.design.keys import Key, toml_string
+from fluxbore.design.performance import FIGURES
+from fluxbore.design.spec import Spec
+from fluxbore.design.study import Axis, Constraint, Study
+from fluxbore.design.units import DIMENSIONS
+
+_TEMPLATES = Path(__file__).parent / "data" / "templates"
+
+
+def template_names() -> tuple[str, ...]:
+    """The templates that `template` knows."""
+    return tuple(sorted(path.stem for path in _TEMPLATES.glob("*.toml")))
+
+
+def template(name: str) -> str:
+    """A commented specification to start from. Raises SpecError where there is none of that name."""
+    if name not in template_names():
+        raise SpecError(f'There is a template for {", ".join(template_names())}; got "{name}".')
+    return (_TEMPLATES / f"{name}.toml").read_text(encoding="utf-8")
+
+
+def to_toml(spec: Spec, comment: str = "") -> str:
+    """The specification as a file, every value exact: reading it gives the same floats back.
+
+    comment : lines for the head of the file, without the hash signs.
+    """
+    notes = {note.key: note for note in spec.notes}
+    lines = [f"# {line}".rstrip() for line in comment.splitlines()]
+    sections: dict[str, list[str]] = {"actuator": [f'kind = "{spec.kind.name}"']}
+    for key in spec.kind.keys:
+        if key.name not in spec.given:
+            continue
+        text = key.write(spec.given[key.name])
+        note = notes.get(key.name)
+        if note is not None:
+            text = f"{{ value = {text}, {note.status} = {toml_string(note.reason)} }}"
+        unit = f"  # {key.symbol}" if key.symbol else ""
+        sections.setdefault(key.section, []).append(f"{key.leaf} = {text}{unit}")
+    for section, content in sections.items():
+        lines += ["", f"[{section}]", *content]
+    for name, table in spec.own_materials.items():
+        lines += ["", f"[materials.{toml_string(name)}]", *(f"{key} = {_plain(value)}" for key, value in table.items())]
+    lines += _study_lines(spec.study, {key.name: key for key in spec.kind.keys})
+    return "\n".join(lines).lstrip("\n") + "\n"
+
+
+def _plain(value: Any) -> str:
+    """A TOML value from a plain Python one."""
+    if isinstance(value, str):
+        return toml_string(value)
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, (list, tuple)):
+        return "[" + ", ".join(_plain(item) for item in value) + "]"
+    if isinstance(value, dict):
+        return "{ " + ", ".join(f"{key} = {_plain(item)}" for key, item in value.items()) + " }"
+    return repr(value)
+
+
+def _study_lines(study: Study, keys: Mapping[str, Key]) -> list[str]:
+    lines = ["", "[study]"]
+    if study.objective is not None:
+        verb = "maximise" if study.objective.maximise else "minimise"
+        lines.append(f'objective = "{verb} {study.objective.figure}"')
+    if study.hold:
+        lines.append(f"hold = {_plain(study.hold)}")
+    for variable in study.variables:
+        key = keys[variable.key]
+        lines += ["", "[[study.variables]]", f'key = "{key.name}"']
+        lines += [f"lower = {key.write(variable.lower)}", f"upper = {key.write(variable.upper)}"]
+        if variable.resolution is not None:
+            lines.append(f"resolution = {key.write(variable.resolution)}")
+    for constraint in study.constraints:
+        lines += _constraint_lines(constraint, keys)
+    for sweep in study.sweeps:
+        lines += ["", "[[study.sweeps]]", f"name = {toml_string(sweep.name)}"]
+        if sweep.reference is not None:
+            lines.append(f"published_optimum = {_limit(keys[sweep.axes[0].key], sweep.reference)}")
+        if sweep.reference_source:
+            lines.append(f"source = {toml_string(sweep.reference_source)}")
+        lines.append("axes = [" + ", ".join(_axis(axis, keys[axis.key]) for axis in sweep.axes) + "]")
+    search = study.search
+    lines += ["", "[study.search]", f'algorithm = "{search.algorithm}"']
+    lines += [f"max_evaluations = {search.max_evaluations}", f"relative_tolerance = {search.relative_tolerance!r}"]
+    return [*lines, f"seed = {search.seed}"]
+
+
+def _constraint_lines(constraint: Constraint, keys: Mapping[str, Key]) -> list[str]:
+    if constraint.subject in FIGURES:
+        figure = FIGURES[constraint.subject]
+        kind = "quantity" if figure.dimension in DIMENSIONS else "number"
+        key = Key(constraint.subject, "", kind, figure.dimension)
+        lines = ["", "[[study.constraints]]", f'figure = "{constraint.subject}"']
+    else:
+        key = keys[constraint.subject]
+        lines = ["", "[[study.constraints]]", f'key = "{constraint.subject}"']
+    for bound, value in (("upper", constraint.upper), ("lower", constraint.lower)):
+        if value is not None:
+            lines.append(f"{bound} = " + (f'"{value!r} x start"' if constraint.relative_to_start else _limit(key, value)))
+    return lines
+
+
+def _limit(key: Key, value: float) -> str:
+    """A limit of a count is a plain number, which may be a fraction."""
+    return repr(value) if key.kind == "integer" else key.write(value)
+
+
+def _axis(axis: Axis, key: Key) -> str:
+    values = (int(value) if key.kind == "integer" else value for value in axis.values)
+    return f'{{ key = "{axis.key}", values = [{", ".join(key.write(value) for value in values)}] }}'

@@ -1,0 +1,155 @@
+"""Gathers what a report shows: the one place where results of every room meet."""
+
+from __future__ import annotations
+
+import platform
+import sys
+from collections.abc import Mapping, Sequence
+from importlib.metadata import PackageNotFoundError, version
+from typing import TYPE_CHECKING
+
+from fluxbore import __version__
+from fluxbore.design.errors import MaterialError, MissingLibraryError
+from fluxbore.design.hybrid import HybridActuator
+from fluxbore.design.magnetic_network import Slots, cylinder_insertion
+from fluxbore.design.spec import Spec
+from fluxbore.geometry.assembly import Assembly, interferences
+from fluxbore.geometry.hybrid_parts import assembly
+from fluxbore.geometry.mass import PartMass, part_masses
+from fluxbore.optimize.design_key import source_hash
+from fluxbore.optimize.evaluate import solve_window
+from fluxbore.optimize.evaluation import Evaluation
+
+if TYPE_CHECKING:
+    from fluxbore.reports.content import FluxMap, PartRow, Picture, SlotComparison
+
+NOT_CHECKED = (
+    "Heat: the continuous current and the winding's temperature under load.",
+    "Strength: the cylinder's hoop stress and dilation under pressure, the shaft's buckling.",
+    "The motor at current: force beyond the linear range, demagnetisation by the winding's own field.",
+    "Losses besides the copper's: eddy currents in the conductive cylinder, hysteresis in yoke and rings.",
+    "Friction, wear and air leakage of the seal fins.",
+    "Tolerances of manufacture: every dimension is taken as drawn.",
+    "Anything that is not rotationally symmetric: lead wires, eccentricity, ports in the field.",
+)
+"""What this version of the program does not look at; the report says so."""
+
+
+def flux_map(spec: Spec) -> FluxMap:
+    """The design's field at no current in the middle of its window, with the parts' outlines."""
+    import numpy as np
+
+    from fluxbore.fem.field import flux_map as field_map
+    from fluxbore.reports.content import FluxMap
+
+    position = spec.positions[len(spec.positions) // 2]
+    solved = solve_window(spec, (position,))[0]
+    field = field_map(solved.solution)
+    boxes = [(item.region.name, item.r, item.z) for item in solved.section.rectangles]
+    boxes += [(f"coil {coil.circuit}", coil.r, coil.z) for coil in solved.section.coils]
+    outlines = tuple(
+        (name, np.array([(r[0], z[0]), (r[1], z[0]), (r[1], z[1]), (r[0], z[1])])) for name, r, z in boxes
+    )
+    return FluxMap(field.r, field.z, field.triangles, field.flux, field.flux_density, outlines, position)
+
+
+def picture(parts: Assembly) -> Picture:
+    """The assembly with its stator cut open, rendered; without graphics libraries the reason why not."""
+    from fluxbore.geometry.step import tessellate
+    from fluxbore.reports.content import Picture
+    from fluxbore.reports.scene import render_picture
+
+    try:
+        meshes = tessellate(parts, 2e-4, cut_away=True)
+    except MissingLibraryError as error:
+        return Picture(None, str(error))
+    return render_picture(meshes)
+
+
+def part_rows(spec: Spec) -> tuple[PartRow, ...]:
+    """The parts list; parts that differ by their place alone share a line."""
+    from fluxbore.reports.content import PartRow
+
+    actuator = spec.actuator
+    alike: dict[tuple[object, ...], list[PartMass]] = {}
+    for row in part_masses(assembly(actuator, actuator.mid_stroke), actuator, spec.materials):
+        key = (row.part.role, row.part.group, row.part.material, _size(row), f"{row.volume:.9e}")
+        alike.setdefault(key, []).append(row)
+    rows = []
+    for same in alike.values():
+        part = same[0].part
+        name = part.name if len(same) == 1 else part.role
+        rows.append(PartRow(name, part.group, part.material, _size(same[0]), same[0].volume, same[0].mass, len(same)))
+    return tuple(rows)
+
+
+def _size(row: PartMass) -> str:
+    """Outer and inner diameter and length of the part's envelope, as on a drawing."""
+    radii, heights = zip(*row.part.profile, strict=True)
+    bore = f" / \N{LATIN CAPITAL LETTER O WITH STROKE}{2e3 * min(radii):.5g}" if min(radii) > 0 else ""
+    length = (max(heights) - min(heights)) * 1e3
+    return f"\N{LATIN CAPITAL LETTER O WITH STROKE}{2e3 * max(radii):.5g}{bore} \N{MULTIPLICATION SIGN} {length:.5g} mm"
+
+
+def slot_comparison(spec: Spec) -> SlotComparison | None:
+    """Equation (2) for a slotted and a slotless stator while the cylinder's wall grows; None where it does not apply."""
+    from fluxbore.reports.content import SlotComparison
+
+    slots = Slots()
+    try:
+        found = cylinder_insertion(
+            spec.actuator, spec.materials, spec.number("operating_point.magnet_temperature"), slots
+        )
+    except MaterialError:
+        return None
+    note = (
+        "Equation (2) at the electric loading of one ampere, the same for both. Slots of "
+        f"{slots.opening * 1e3:g} mm every {slots.pitch * 1e3:g} mm are assumed: the paper gives none."
+    )
+    return SlotComparison(found.walls, found.slotted, found.slotless, note)
+
+
+def checked(actuator: HybridActuator, parts: Assembly, evaluation: Evaluation | None) -> tuple[str, ...]:
+    """What was looked at and held, in sentences with the figures."""
+    found = interferences(parts)
+    designed = [item for item in found if item.designed]
+    sentences = []
+    if all(item.designed for item in found):
+        squeeze = sum(item.volume for item in designed) * 1e9
+        sentences.append(
+            f"Interference of all {len(parts.parts)} parts in their section: none but the designed squeeze of the "
+            f"seal fins against the bore, {squeeze:.3g} mm³ in all."
+        )
+    else:
+        names = "; ".join(f"{item.first} and {item.second}" for item in found if not item.designed)
+        sentences.append(f"Interference: {names} overlap.")
+    if evaluation is not None and evaluation.ok and evaluation.positions:
+        worst = max(item.residual for item in evaluation.positions)
+        sentences.append(f"Convergence: the largest relative residual over the window is {worst:.1e}.")
+    return tuple(sentences)
+
+
+def provenance(spec: Spec, evaluation: Evaluation | None, command: Sequence[str] | None = None) -> Mapping[str, str]:
+    """Versions, hashes, mesh: what somebody needs who wants to see the same figures again."""
+    from datetime import UTC, datetime
+
+    rows = {
+        "fluxbore": f"{__version__}, sources {source_hash()[:16]}",
+        "specification": f"SHA-256 {spec.fingerprint()}",
+        "Python": f"{sys.version.split()[0]} on {platform.system()} {platform.machine()}",
+    }
+    for package in ("numpy", "scipy", "nlopt", "cadquery", "matplotlib"):
+        try:
+            rows[package] = version(package)
+        except PackageNotFoundError:
+            rows[package] = "not installed"
+    details = (evaluation.details if evaluation is not None else None) or {}
+    if "elements" in details:
+        rows["mesh"] = (
+            f"{details['elements']:.0f} quadratic triangles, {details['unknowns']:.0f} unknowns, "
+            f"refinement {spec.values['solver.mesh_refinement']}"
+        )
+    if command is not None:
+        rows["command"] = "fluxbore " + " ".join(command)
+    rows["date"] = datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC")
+    return rows
