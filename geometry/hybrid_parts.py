@@ -47,8 +47,8 @@ def assembly(actuator: HybridActuator, position: float) -> Assembly:
     Raises DesignError where the parts do not fit one another or the position is beyond the stroke.
     """
     actuator.check()
-    _check_caps(actuator)
     _check_mover(actuator)
+    _check_caps(actuator)
     low = actuator.mid_stroke - actuator.mover.stroke / 2
     high = actuator.mid_stroke + actuator.mover.stroke / 2
     if not low - SLACK <= position <= high + SLACK:
@@ -178,7 +178,7 @@ def _pistons(actuator: HybridActuator, position: float) -> list[Part]:
     """Two alike, mirrored, their lips away from the magnets; from the lip inwards along s, from the axis along r."""
     piston, shaft = actuator.piston, actuator.shaft.outer_diameter / 2
     tip, root, wall = piston.fin_outer_diameter / 2, piston.fin_inner_diameter / 2, _radial_thickness(actuator)
-    hub = root - wall - _groove(actuator)
+    hub = _hub_radius(actuator)
     outline = (
         (shaft, 0.0),
         (hub, 0.0),
@@ -208,10 +208,11 @@ def _radial_thickness(actuator: HybridActuator) -> float:
     return piston.fin_thickness * math.hypot(1.0, slope)
 
 
-def _groove(actuator: HybridActuator) -> float:
-    """Width of the groove behind the lip at its root (m): two lips wide, or half of what there is above the shaft."""
-    room = (actuator.piston.fin_inner_diameter - actuator.shaft.outer_diameter) / 2 - _radial_thickness(actuator)
-    return min(2 * actuator.piston.fin_thickness, room / 2)
+def _hub_radius(actuator: HybridActuator) -> float:
+    """Of the piston's face, which meets the end cap (m); the groove between it and the lip's root is two lips wide, or
+    half of what there is above the shaft."""
+    shaft, lip = actuator.shaft.outer_diameter / 2, actuator.piston.fin_inner_diameter / 2 - _radial_thickness(actuator)
+    return lip - min(2 * actuator.piston.fin_thickness, (lip - shaft) / 2)
 
 
 def _check_caps(actuator: HybridActuator) -> None:
@@ -234,12 +235,17 @@ def _check_caps(actuator: HybridActuator) -> None:
             f"actuator.cylinder.length must leave room for the end caps' spigots, at least {_mm(spigots)}; "
             f"got {_mm(cylinder.length)}."
         )
-    widest = (cylinder.inner_diameter - 2 * THINNEST) ** 2 - _rod_bore(actuator) ** 2
-    if widest <= 0 or caps.port_diameter > math.sqrt(widest):
-        room = math.sqrt(max(widest, 0.0))
+    seat = 2 * _hub_radius(actuator) - 2 * THINNEST
+    if seat <= _rod_bore(actuator):
         raise DesignError(
-            "actuator.end_caps.port_diameter must leave a wall around the passage in the spigot of diameter "
-            f"{_mm(cylinder.inner_diameter)}, at most {_mm(room)}; got {_mm(caps.port_diameter)}."
+            "actuator.end_caps.rod_clearance must leave the piston a seat on the end cap, below "
+            f"{_mm((seat - actuator.shaft.outer_diameter) / 2)}; got {_mm(caps.rod_clearance)}."
+        )
+    widest = math.sqrt(seat**2 - _rod_bore(actuator) ** 2)
+    if caps.port_diameter > widest:
+        raise DesignError(
+            "actuator.end_caps.port_diameter must leave the piston a seat around the passage to the chamber, at most "
+            f"{_mm(widest)}; got {_mm(caps.port_diameter)}."
         )
     shortest = 1.2 * caps.port_diameter + 2 * THINNEST
     if caps.flange_length < shortest:
@@ -273,7 +279,7 @@ def _check_mover(actuator: HybridActuator) -> None:
             f"actuator.piston.fin_length must leave a body behind the fin, at most {_mm(piston.length - THINNEST)}; "
             f"got {_mm(piston.fin_length)}."
         )
-    room = (piston.fin_inner_diameter - shaft.outer_diameter) / 2 - 2 * THINNEST
+    room = (piston.fin_inner_diameter - shaft.outer_diameter) / 2 - 4 * THINNEST
     if room <= 0:
         raise DesignError(
             "actuator.piston.fin_inner_diameter must leave a body above actuator.shaft.outer_diameter "

@@ -1,0 +1,117 @@
+"""Parts as solids of the CAD kernel (Open CASCADE, through cadquery), in millimetres, and as triangles for a picture.
+
+cadquery takes seconds to import and needs libGL, so it is imported inside the functions. Everything a solid must be,
+one body, valid, closed, of positive volume, is insisted upon here: boolean operations fail in silence.
+"""
+
+from __future__ import annotations
+
+import math
+from types import ModuleType
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from fluxbore.design.errors import DesignError, MissingLibraryError
+from fluxbore.design.graphics import APT_LINE, has_gl
+from fluxbore.geometry.assembly import Assembly, Colour, Hole, Part
+
+if TYPE_CHECKING:
+    import cadquery
+
+MILLIMETRE = 1e-3
+
+ANGULAR_TOLERANCE = 0.1
+"""rad between neighbouring facets: 63 to a turn."""
+
+
+class Mesh(NamedTuple):
+    """Triangles of one part. vertices : (n, 3) in m; corners are repeated where faces meet, so that edges stay sharp.
+    triangles : (m, 3) indices into them, counter-clockwise from outside."""
+
+    name: str
+    colour: Colour
+    vertices: npt.NDArray[np.float64]
+    triangles: npt.NDArray[np.int64]
+
+
+def load_cadquery() -> ModuleType:
+    """The cadquery module; MissingLibraryError says how to get what it lacks."""
+    if not has_gl():
+        raise MissingLibraryError(f"CAD needs the system library libGL.so.1; get it by: {APT_LINE}")
+    try:
+        import cadquery
+    except ImportError as error:
+        raise MissingLibraryError(f"CAD needs cadquery ({error}); get it by: pip install cadquery") from error
+    module: ModuleType = cadquery
+    return module
+
+
+def solid(part: Part, opening: float = 0.0) -> cadquery.Solid:
+    """One valid closed solid, in mm.
+
+    opening : the sector from angle 0 (+x) to this one (rad) is left out of the revolution, for a look inside.
+    Raises DesignError where the kernel does not make exactly one such body of the part.
+    """
+    cq = load_cadquery()
+    corners = [
+        cq.Vector(r * math.cos(opening) / MILLIMETRE, r * math.sin(opening) / MILLIMETRE, z / MILLIMETRE)
+        for r, z in part.profile
+    ]
+    wire = cq.Wire.makePolygon(corners, close=True)
+    body = cq.Solid.revolve(wire, [], 360 - math.degrees(opening), cq.Vector(0, 0, 0), cq.Vector(0, 0, 1))
+    for hole in part.holes:
+        body = _one_solid(body.cut(_drill(cq, part, hole)), part)
+    body = _one_solid(body, part)
+    if not body.isValid() or not is_closed(body) or not kernel_volume(body) > 0:
+        raise DesignError(f"The {part.name} must be one valid closed solid; the CAD kernel made an invalid one.")
+    return body
+
+
+def is_closed(body: cadquery.Shape) -> bool:
+    """Whether every shell of the shape is watertight."""
+    from OCP.BRep import BRep_Tool
+
+    shells = body.Shells()
+    return bool(shells) and all(BRep_Tool.IsClosed_s(shell.wrapped) for shell in shells)
+
+
+def kernel_volume(body: cadquery.Shape) -> float:
+    """The kernel's volume (m^3), integrated adaptively: its quick rule is 1e-5 off where a drilling meets a bore."""
+    from OCP.BRepGProp import BRepGProp
+    from OCP.GProp import GProp_GProps
+
+    properties = GProp_GProps()
+    BRepGProp.VolumeProperties_s(body.wrapped, properties, 1e-9)
+    return float(properties.Mass()) * MILLIMETRE**3
+
+
+def tessellate(assembly: Assembly, tolerance: float, opening: float = 0.0) -> list[Mesh]:
+    """Triangles of every part, in the assembly's order, no farther than ``tolerance`` (m) from the surface.
+
+    opening : the sector from angle 0 (+x) to this one (rad) is left out of the stator; the mover stays whole.
+    """
+    meshes = []
+    for part in assembly.parts:
+        body = solid(part, opening if part.group == "stator" else 0.0)
+        vertices, triangles = body.tessellate(tolerance / MILLIMETRE, ANGULAR_TOLERANCE)
+        points = np.array([vertex.toTuple() for vertex in vertices], dtype=np.float64) * MILLIMETRE
+        meshes.append(Mesh(part.name, part.colour, points, np.array(triangles, dtype=np.int64)))
+    return meshes
+
+
+def _drill(cq: ModuleType, part: Part, hole: Hole) -> cadquery.Solid:
+    outside = 1.1 * max(r for r, _ in part.profile)
+    along = cq.Vector(math.cos(hole.angle), math.sin(hole.angle), 0)
+    start = along * (hole.bottom / MILLIMETRE) + cq.Vector(0, 0, hole.z / MILLIMETRE)
+    radius, length = hole.diameter / 2 / MILLIMETRE, (outside - hole.bottom) / MILLIMETRE
+    return cq.Solid.makeCylinder(radius, length, start, along)
+
+
+def _one_solid(shape: cadquery.Shape, part: Part) -> cadquery.Solid:
+    """The only solid in a shape: a cut returns a compound, which may hold none or several."""
+    solids = shape.Solids()
+    if len(solids) != 1:
+        raise DesignError(f"The {part.name} must be one solid; its drillings leave {len(solids)}.")
+    return solids[0]

@@ -1,0 +1,141 @@
+"""Solids of the CAD kernel: one valid closed body each, as large as arithmetic says, also beyond the prototype."""
+
+import dataclasses
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from fluxbore.design import graphics
+from fluxbore.design.errors import DesignError, MissingLibraryError
+from fluxbore.design.hybrid import BackYoke, Cylinder, EndCaps, HybridActuator, Mover, Piston, Shaft, Winding
+from fluxbore.geometry import assembly as geometry
+from fluxbore.geometry import hybrid_parts
+from fluxbore.geometry import solid as solids
+from fluxbore.geometry.assembly import Hole, Part, rectangle
+
+MM = 1e-3
+
+needs_gl = pytest.mark.skipif(not graphics.has_gl(), reason=f"libGL is missing: {graphics.APT_LINE}")
+
+
+def table_ii() -> HybridActuator:
+    """The prototype of Nakata and Noda (2023), Tables II and III; tube length, fin thickness and caps are assumed."""
+    return HybridActuator(
+        name="iPEHLA",
+        back_yoke=BackYoke(27 * MM, 25 * MM, 3 * MM, 10 * MM, "1010"),
+        winding=Winding(24.2 * MM, 8, 584, 0.4 * MM, "copper"),
+        cylinder=Cylinder(20 * MM, 16.1 * MM, 16 * MM, 220 * MM, "aluminium 6061"),
+        mover=Mover(12 * MM, 1.5 * MM, 4, 15.9 * MM, "N48", 1.4, 1.05, "1010", 88 * MM),
+        shaft=Shaft(8 * MM, 235 * MM, "stainless steel 304"),
+        piston=Piston(8 * MM, 16.3 * MM, 15.4 * MM, 1.8 * MM, 0.3 * MM, "POM"),
+        end_caps=EndCaps(27 * MM, 12 * MM, 5 * MM, 0.05 * MM, "aluminium 6061"),
+    )
+
+
+def variant(**sections: dict[str, Any]) -> HybridActuator:
+    """The prototype with some values replaced, section by section."""
+    actuator = table_ii()
+    new: dict[str, Any] = {
+        name: dataclasses.replace(getattr(actuator, name), **values) for name, values in sections.items()
+    }
+    return dataclasses.replace(actuator, **new)
+
+
+def part(profile: geometry.Profile, *holes: Hole) -> Part:
+    return Part("block", "block", "stator", "steel", (0.5, 0.5, 0.5), profile, holes)
+
+
+CASES = {
+    "as published": table_ii(),
+    "no rings, a port as wide as it may be": variant(
+        mover={"ring_width": 0.0},
+        end_caps={"port_diameter": 10.8 * MM, "flange_length": 14 * MM},
+        shaft={"length": 240 * MM},
+    ),
+    "one pole pair, a narrow port, no clearance": variant(
+        mover={"pole_pairs": 1}, end_caps={"port_diameter": 0.5 * MM, "rod_clearance": 0.0}
+    ),
+    "a fin without flare": variant(piston={"fin_outer_diameter": 15.4 * MM, "fin_thickness": 0.05 * MM}),
+}
+
+
+@needs_gl
+@pytest.mark.parametrize("case", CASES)
+def test_every_solid_is_valid_closed_and_as_large_as_arithmetic_says(case: str) -> None:
+    """The two volumes share no code: Pappus and a quadrature against the kernel's own adaptive integration."""
+    whole = hybrid_parts.assembly(CASES[case], CASES[case].mid_stroke)
+    for one in whole.parts:
+        if one.role == "coil" and one.name != "coil 02 V":
+            continue
+        body = solids.solid(one)
+        assert len(body.Solids()) == 1
+        assert body.isValid()
+        assert solids.is_closed(body)
+        assert solids.kernel_volume(body) == pytest.approx(geometry.volume(one), rel=1e-6 if one.holes else 1e-9)
+        low, high = min(z for _, z in one.profile), max(z for _, z in one.profile)
+        box = body.BoundingBox()
+        assert (box.zmin * MM, box.zmax * MM) == pytest.approx((low, high), abs=1e-6)
+
+
+@needs_gl
+def test_a_drilling_lies_where_it_was_put() -> None:
+    """Height, angle and bottom by the centre of mass, which `test_assembly` has checked by hand."""
+    from OCP.BRepGProp import BRepGProp
+    from OCP.GProp import GProp_GProps
+
+    drilled = part(rectangle(0.004, 0.015, 0.0, 0.03), Hole(0.02, 0.006, 2.2, 0.007), Hole(0.006, 0.004, -0.4))
+    body, properties = solids.solid(drilled), GProp_GProps()
+    assert solids.kernel_volume(body) == pytest.approx(geometry.volume(drilled), rel=1e-6)
+    BRepGProp.VolumeProperties_s(body.wrapped, properties, 1e-9)
+    centre = properties.CentreOfMass()
+    found = (centre.X() * MM, centre.Y() * MM, centre.Z() * MM)
+    assert found == pytest.approx(geometry.centre_of_mass(drilled), abs=1e-8)
+
+
+@needs_gl
+def test_drillings_that_cut_a_part_in_two_are_refused() -> None:
+    """Catches a compound of pieces passed on as if it were one part."""
+    sawn = part(rectangle(0, 0.005, 0, 0.03), Hole(0.015, 0.012), Hole(0.015, 0.012, math.pi))
+    with pytest.raises(DesignError, match="block must be one solid; its drillings leave 2"):
+        solids.solid(sawn)
+
+
+@needs_gl
+def test_an_opening_takes_its_share_of_the_revolution() -> None:
+    """A quarter left out leaves three quarters of a turned part, in the other three quadrants."""
+    ring = part(rectangle(0.004, 0.008, 0, 0.01))
+    body = solids.solid(ring, math.pi / 2)
+    assert solids.kernel_volume(body) == pytest.approx(0.75 * geometry.volume(ring), rel=1e-9)
+    meshes = solids.tessellate(geometry.Assembly("a", (ring,), 0.0), 1e-5, math.pi / 2)
+    middles = meshes[0].vertices[meshes[0].triangles].mean(axis=1)
+    assert not ((middles[:, 0] > 1e-6) & (middles[:, 1] > 1e-6)).any()
+
+
+@needs_gl
+@pytest.mark.parametrize("opening", [0.0, math.pi / 2, math.pi])
+def test_triangles_face_outwards_and_enclose_the_volume(opening: float) -> None:
+    """By the divergence theorem; catches metres for millimetres, a face turned round and a face left out."""
+    whole = hybrid_parts.assembly(table_ii(), 0.02)
+    chosen = tuple(one for one in whole.parts if one.role in ("end cap", "piston", "shaft"))
+    meshes = solids.tessellate(dataclasses.replace(whole, parts=chosen), 1e-5, opening)
+    assert [(mesh.name, mesh.colour) for mesh in meshes] == [(one.name, one.colour) for one in chosen]
+    for mesh, one in zip(meshes, chosen, strict=True):
+        a, b, c = (mesh.vertices[mesh.triangles[:, i]] for i in range(3))
+        enclosed = float(np.einsum("ij,ij->", a, np.cross(b, c))) / 6
+        body = solids.solid(one, opening if one.group == "stator" else 0.0)
+        assert enclosed == pytest.approx(solids.kernel_volume(body), rel=5e-3)
+
+
+def test_without_libgl_the_sentence_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(solids, "has_gl", lambda: False)
+    with pytest.raises(MissingLibraryError, match=r"libGL\.so\.1.*apt-get install .*libgl1"):
+        solids.solid(part(rectangle(0, 1, 0, 1)))
+
+
+def test_without_cadquery_the_sentence_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(solids, "has_gl", lambda: True)
+    monkeypatch.setitem(__import__("sys").modules, "cadquery", None)
+    with pytest.raises(MissingLibraryError, match="pip install cadquery"):
+        solids.solid(part(rectangle(0, 1, 0, 1)))
