@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
 MILLIMETRE = 1e-3
 
+QUARTER = math.pi / 2
+
 ANGULAR_TOLERANCE = 0.1
 """rad between neighbouring facets: 63 to a turn."""
 
@@ -87,14 +89,14 @@ def kernel_volume(body: cadquery.Shape) -> float:
     return float(properties.Mass()) * MILLIMETRE**3
 
 
-def tessellate(assembly: Assembly, tolerance: float, opening: float = 0.0) -> list[Mesh]:
+def tessellate(assembly: Assembly, tolerance: float, cut_away: bool = False) -> list[Mesh]:
     """Triangles of every part, in the assembly's order, no farther than ``tolerance`` (m) from the surface.
 
-    opening : the sector from angle 0 (+x) to this one (rad) is left out of the stator; the mover stays whole.
+    cut_away : the stator lacks the quarter from +x to +y, whose first face shows the ports cut; the mover stays whole.
     """
     meshes = []
     for part in assembly.parts:
-        body = solid(part, opening if part.group == "stator" else 0.0)
+        body = solid(part, QUARTER if cut_away and part.group == "stator" else 0.0)
         vertices, triangles = body.tessellate(tolerance / MILLIMETRE, ANGULAR_TOLERANCE)
         points = np.array([vertex.toTuple() for vertex in vertices], dtype=np.float64) * MILLIMETRE
         meshes.append(Mesh(part.name, part.colour, points, np.array(triangles, dtype=np.int64)))

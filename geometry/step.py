@@ -17,10 +17,12 @@ from typing import TYPE_CHECKING, Any
 from fluxbore.design.errors import OutputError
 from fluxbore.design.units import format_quantity
 from fluxbore.geometry.assembly import Assembly, Colour
-from fluxbore.geometry.solid import solid
+from fluxbore.geometry.solid import solid, tessellate
 
 if TYPE_CHECKING:
     import cadquery
+
+__all__ = ["file_name", "tessellate", "write_step"]
 
 PARTS = "parts"
 """Name of the folder that holds a file for each part."""

@@ -106,25 +106,26 @@ def test_drillings_that_cut_a_part_in_two_are_refused() -> None:
 def test_an_opening_takes_its_share_of_the_revolution() -> None:
     """A quarter left out leaves three quarters of a turned part, in the other three quadrants."""
     ring = part(rectangle(0.004, 0.008, 0, 0.01))
-    body = solids.solid(ring, math.pi / 2)
-    assert solids.kernel_volume(body) == pytest.approx(0.75 * geometry.volume(ring), rel=1e-9)
-    meshes = solids.tessellate(geometry.Assembly("a", (ring,), 0.0), 1e-5, math.pi / 2)
+    for opening, left in ((math.pi / 2, 0.75), (math.pi, 0.5)):
+        body = solids.solid(ring, opening)
+        assert solids.kernel_volume(body) == pytest.approx(left * geometry.volume(ring), rel=1e-9)
+    meshes = solids.tessellate(geometry.Assembly("a", (ring,), 0.0), 1e-5, cut_away=True)
     middles = meshes[0].vertices[meshes[0].triangles].mean(axis=1)
     assert not ((middles[:, 0] > 1e-6) & (middles[:, 1] > 1e-6)).any()
 
 
 @needs_gl
-@pytest.mark.parametrize("opening", [0.0, math.pi / 2, math.pi])
-def test_triangles_face_outwards_and_enclose_the_volume(opening: float) -> None:
+@pytest.mark.parametrize("cut_away", [False, True])
+def test_triangles_face_outwards_and_enclose_the_volume(cut_away: bool) -> None:
     """By the divergence theorem; catches metres for millimetres, a face turned round and a face left out."""
     whole = hybrid_parts.assembly(table_ii(), 0.02)
     chosen = tuple(one for one in whole.parts if one.role in ("end cap", "piston", "shaft"))
-    meshes = solids.tessellate(dataclasses.replace(whole, parts=chosen), 1e-5, opening)
+    meshes = solids.tessellate(dataclasses.replace(whole, parts=chosen), 1e-5, cut_away)
     assert [(mesh.name, mesh.colour) for mesh in meshes] == [(one.name, one.colour) for one in chosen]
     for mesh, one in zip(meshes, chosen, strict=True):
         a, b, c = (mesh.vertices[mesh.triangles[:, i]] for i in range(3))
         enclosed = float(np.einsum("ij,ij->", a, np.cross(b, c))) / 6
-        body = solids.solid(one, opening if one.group == "stator" else 0.0)
+        body = solids.solid(one, math.pi / 2 if cut_away and one.group == "stator" else 0.0)
         assert enclosed == pytest.approx(solids.kernel_volume(body), rel=5e-3)
 
 
