@@ -42,10 +42,10 @@ def run_sweeps(
     found: dict[int, Evaluation] = {}
     for item in Evaluator(base, executor, journal, fidelity, evaluate, "sweep").each(designs):
         found[item.index] = item.evaluation
-        tracker.add(_numbers(designs[item.index]), item.evaluation, reused=item.reused)
+        tracker.add(numbers(designs[item.index]), item.evaluation, reused=item.reused)
     results, begin = [], 0
     for sweep, rows in zip(spec.study.sweeps, grids, strict=True):
-        made = (SweepRow(_numbers(values), found[begin + i]) for i, values in enumerate(rows))
+        made = (SweepRow(numbers(values), found[begin + i]) for i, values in enumerate(rows))
         results.append(SweepResult(sweep, tuple(made)))
         begin += len(rows)
     return tuple(results)
@@ -61,5 +61,6 @@ def grid(spec: Spec, sweep: Sweep) -> list[dict[str, Value]]:
     ]
 
 
-def _numbers(values: Mapping[str, Value]) -> dict[str, float]:
+def numbers(values: Mapping[str, Value]) -> dict[str, float]:
+    """The values without the words among them."""
     return {key: value for key, value in values.items() if not isinstance(value, str)}

@@ -1,0 +1,56 @@
+"""Tasks for the executor's tests, importable by worker processes."""
+
+import os
+import signal
+import sys
+import time
+from pathlib import Path
+
+
+def double(number):
+    return 2 * number
+
+
+def fragile(task):
+    """Do what the word says, else give the task back."""
+    if task == "raise":
+        raise ValueError("raised on purpose")
+    if task == "memory":
+        raise MemoryError
+    if task == "exit":
+        os._exit(7)
+    if task in ("kill", "segv"):
+        os.kill(os.getpid(), signal.SIGKILL if task == "kill" else signal.SIGSEGV)
+    return task
+
+
+def die_once(flag):
+    if not Path(flag).exists():
+        Path(flag).touch()
+        os.kill(os.getpid(), signal.SIGKILL)
+    return flag
+
+
+def announce_and_sleep(folder):
+    (Path(folder) / str(os.getpid())).touch()
+    time.sleep(600)
+
+
+def sleep_but_first(task):
+    folder, number = task
+    (Path(folder) / str(os.getpid())).touch()
+    if number:
+        time.sleep(600)
+
+
+def surroundings(_):
+    return [os.environ.get(name) for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS")], "numpy" in sys.modules
+
+
+def chatter(_):
+    print("chatter", flush=True)
+    os.write(1, b"more chatter\n")
+
+
+def stillborn(_connection):
+    os._exit(3)

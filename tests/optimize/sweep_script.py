@@ -1,0 +1,18 @@
+"""Runs a sweep of the toy in a folder, as the command line does; the kill test kills it.  sweep_script.py FOLDER"""
+
+import sys
+from pathlib import Path
+
+import toy
+
+from fluxbore.optimize.executor import local_executor
+from fluxbore.optimize.folder import open_folder
+from fluxbore.optimize.journal import Journal
+from fluxbore.optimize.sweep import run_sweeps
+from fluxbore.optimize.table import FILE_NAME, results_table
+
+spec = toy.two_sweeps(points=9)
+folder = open_folder(Path(sys.argv[1]), spec)
+with Journal(folder.journal) as journal, local_executor(2) as executor:
+    results = run_sweeps(spec, journal, executor, evaluate=toy.slow)
+folder.write(FILE_NAME, results_table(spec, results))

@@ -1,0 +1,162 @@
+"""Sweeps: one row for every design whatever becomes of it, and after any number of kills the same table."""
+
+import json
+import os
+import random
+import signal
+import subprocess
+import sys
+import time
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+import toy
+
+from fluxbore.design.errors import SpecError
+from fluxbore.design.keys import Alternatives
+from fluxbore.design.study import Axis, Sweep
+from fluxbore.optimize.evaluation import FAILED, INVALID, NOT_CONVERGED, OK
+from fluxbore.optimize.executor import SerialExecutor, local_executor
+from fluxbore.optimize.journal import Journal
+from fluxbore.optimize.sweep import run_sweeps
+from fluxbore.optimize.table import results_table
+
+SCRIPT = Path(__file__).with_name("sweep_script.py")
+
+
+@pytest.fixture
+def trace(tmp_path, monkeypatch):
+    """The file in which every evaluation leaves a line."""
+    monkeypatch.setenv("TOY_LOG", str(tmp_path / "trace"))
+    return tmp_path / "trace"
+
+
+def lines(path):
+    return path.read_text().splitlines() if path.exists() else []
+
+
+def test_rows_stand_in_grid_order_with_their_reasons():
+    """Catches rows in the order of their completion, and a grid that ends at a design that cannot be built."""
+    square, counts = run_sweeps(toy.two_sweeps(), None, SerialExecutor(), evaluate=toy.plain)
+    assert [tuple(row.values.values()) for row in square.rows] == [
+        (2.5 * i, 2.5 * j) for i in range(5) for j in range(5)
+    ]
+    statuses = [row.evaluation.status for row in square.rows]
+    assert statuses == [OK] * 10 + [NOT_CONVERGED] * 5 + [OK] * 9 + [INVALID]
+    assert square.rows[-1].evaluation.reasons[0].startswith("actuator.x must not exceed 9 m")
+    assert [row.values[toy.N] for row in counts.rows] == [0, 1, 2, 3]
+    assert all(isinstance(row.values[toy.N], int) for row in counts.rows)
+    assert square.best("force_constant").evaluation.ok
+
+
+def test_a_value_outside_its_keys_limits_is_a_row():
+    sweep = Sweep("too far", (Axis(toy.X, (0.0, 200.0)),))
+    (result,) = run_sweeps(toy.spec(sweeps=(sweep,)), None, SerialExecutor(), evaluate=toy.plain)
+    assert result.rows[1].evaluation.reasons == ("actuator.x must be at most 100000 mm; got 200000 mm.",)
+
+
+def test_a_crash_costs_one_row():
+    """Catches a crashed worker that takes its neighbours' rows with it, or the whole sweep."""
+    with local_executor(2) as executor:
+        square, counts = run_sweeps(toy.two_sweeps(), None, executor, evaluate=toy.crashing)
+    healthy = run_sweeps(toy.two_sweeps(), None, SerialExecutor(), evaluate=toy.plain)
+    assert [row.evaluation.status for row in square.rows[:5]] == [FAILED] * 5
+    reasons = [row.evaluation.reasons[0] for row in square.rows[:5]]
+    for reason, words in zip(reasons, ["status 7", "SIGKILL", "SIGSEGV", "out of memory", "ZeroDivision"], strict=True):
+        assert words in reason
+    table, sound = (results_table(toy.two_sweeps(), r).splitlines() for r in ((square, counts), healthy))
+    assert table[6:] == sound[6:]
+
+
+def test_nothing_is_computed_twice(trace, tmp_path):
+    """Catches a design computed again: in the same sweep, in another of the study, or in the next run."""
+    spec = toy.spec(sweeps=(toy.square(3), Sweep("again", (Axis(toy.X, (0.0, 0.0, 10.0)), Axis(toy.Y, (0.0,))))))
+    seen = []
+    with Journal(tmp_path / "j") as journal:
+        first = run_sweeps(spec, journal, SerialExecutor(), progress=seen.append, evaluate=toy.plain)
+    assert len(lines(trace)) == len(set(lines(trace))) == 8
+    assert (seen[-1].done, seen[-1].total, seen[-1].reused, seen[-1].failed) == (12, 12, 3, 4)
+    with Journal(tmp_path / "j") as journal:
+        second = run_sweeps(spec, journal, SerialExecutor(), progress=seen.append, evaluate=toy.plain)
+    assert len(lines(trace)) == 8
+    assert seen[-1].reused == 11  # the twelfth cannot be built, so there is nothing to reuse
+    assert results_table(spec, first) == results_table(spec, second)
+
+
+def test_what_crashed_is_computed_again(trace, tmp_path):
+    """Catches a power cut or a lack of memory that stays in the table for ever."""
+    spec = toy.two_sweeps(3)
+    with Journal(tmp_path / "j") as journal:
+        square, _ = run_sweeps(spec, journal, SerialExecutor(), evaluate=toy.plain)
+        key = json.loads(journal.path.read_text().splitlines()[0])
+        failed = {**key, "evaluation": {**key["evaluation"], "status": FAILED}}
+    (tmp_path / "j").write_text(json.dumps(failed) + "\n")
+    with Journal(tmp_path / "j") as journal:
+        again, _ = run_sweeps(spec, journal, SerialExecutor(), evaluate=toy.plain)
+    assert again.rows[0].evaluation.status == square.rows[0].evaluation.status == OK
+
+
+def test_progress_counts_and_knows_the_best(trace):
+    """Catches a best that is not sound, and a count that does not reach its total."""
+    seen = []
+    square, _ = run_sweeps(toy.two_sweeps(), None, SerialExecutor(), progress=seen.append, evaluate=toy.plain)
+    assert [state.done for state in seen] == list(range(1, 30))
+    assert (seen[-1].total, seen[-1].failed, seen[-1].figure) == (29, 6, "force_constant")
+    assert seen[-1].best == max(r.evaluation.performance.force_constant or 0 for r in (*square.rows, *_.rows))
+    assert seen[-1].seconds_left == 0
+
+
+def test_axes_that_over_determine_the_actuator_are_an_error():
+    """Catches a table in which every single row repeats what is wrong with the specification."""
+    either = Alternatives((toy.X, toy.Y), 1, "y = 1 - x")
+    spec = toy.spec(sweeps=(toy.square(),))
+    spec = replace(spec, kind=replace(toy.TOY, alternatives=(either,)), given={toy.X: 1.0, toy.N: 1})
+    with pytest.raises(SpecError, match="over-determined"):
+        run_sweeps(spec, None, SerialExecutor(), evaluate=toy.plain)
+
+
+def test_killed_at_any_moment_it_ends_with_the_same_table(tmp_path):
+    """The kill test. Catches a lost or doubled row, a half-written table, and a finished design computed again."""
+    spec = toy.two_sweeps(points=9)
+    expected = results_table(spec, run_sweeps(spec, None, SerialExecutor(), evaluate=toy.plain))
+    chance = random.Random(20)
+    folder, trace = tmp_path / "out", tmp_path / "trace"
+    environment = os.environ | {
+        "TOY_LOG": str(trace),
+        "PYTHONPATH": os.pathsep.join(part for part in sys.path if part),
+    }
+    recorded: set[str] = set()
+    kills = 0
+    for attempt in range(40):
+        before = len(lines(trace))
+        process = subprocess.Popen([sys.executable, str(SCRIPT), str(folder)], env=environment, stderr=subprocess.PIPE)
+        if attempt < 12:
+            # Half of the kills at a random moment, half just after a random number of designs.
+            if attempt % 2:
+                time.sleep(chance.uniform(0.0, 0.7))
+            else:
+                goal = before + chance.randint(1, 15)
+                while process.poll() is None and len(lines(trace)) < goal:
+                    time.sleep(0.001)
+            process.send_signal(signal.SIGKILL)
+        _, errors = process.communicate()
+        again = [line for line in lines(trace)[before:] if line in recorded]
+        assert again == [], "a design that stood in the journal was computed again"
+        kills += process.returncode == -signal.SIGKILL
+        if process.returncode == 0:
+            break
+        assert process.returncode == -signal.SIGKILL, errors.decode()
+        with Journal(folder / "journal.jsonl") if folder.exists() else Journal(tmp_path / "unused") as journal:
+            recorded = {trace_of(json.loads(line)["values"]) for line in journal.path.read_text().splitlines()}
+    assert kills >= 3
+    assert (folder / "results.csv").read_bytes() == expected.encode()
+    counted = lines(trace)
+    assert len(counted) - len(set(counted)) <= 2 * kills, "only what was in flight may be computed again"
+    assert len(set(counted)) == 9 * 9 - 1 + 4  # the corner cannot be built
+
+
+def trace_of(values):
+    """The line that a design of these values leaves in the trace."""
+    whole = {toy.X: 1.0, toy.Y: 1.0, toy.N: 1, **values}
+    return f"{whole[toy.X]!r} {whole[toy.Y]!r} {whole[toy.N]}"
