@@ -91,7 +91,7 @@ def kernel(mesh: Mesh, elements: Ints | None = None, barycentric: Floats = QUADR
 
 def _inverse_radius(s: Floats) -> Floats:
     """1/√(2s); zero on the axis itself, where ∂ψ/∂z vanishes faster than the radius."""
-    return np.divide(1.0, np.sqrt(2 * np.maximum(s, 0.0)), out=np.zeros_like(s), where=s > 0)
+    return np.asarray(np.divide(1.0, np.sqrt(2 * np.maximum(s, 0.0)), out=np.zeros_like(s), where=s > 0))
 
 
 def flux_density_squared(curl: Floats, psi: Floats) -> tuple[Floats, Floats]:
@@ -106,4 +106,3 @@ def stiffness(curl: Floats, factor: Floats) -> Floats:
     flat = curl.reshape(m, q * two, six)
     scaled = flat * np.repeat(factor, two, axis=1)[..., None]
     return np.asarray(flat.transpose(0, 2, 1) @ scaled)
-

@@ -21,8 +21,8 @@ CORNERS_AND_MIDDLES = np.array(
 class FluxMap:
     """A field on linear triangles, for drawing.
 
-    r, z : (n,) m. triangles : (m, 3). flux : (n,) ψ (Wb/rad); its contours are field lines. flux_density : (m,) |B| (T).
-    region : (m,) index of each triangle's region.
+    r, z : (n,) m. triangles : (m, 3). flux : (n,) ψ (Wb/rad); its contours are field lines.
+    flux_density : (m,) |B| (T). region : (m,) index of each triangle's region.
     """
 
     r: Floats

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from fluxbore.fem.element import QUADRATURE_POINTS, shape
 from fluxbore.fem.magnetostatics import Solution
 from fluxbore.fem.mesh import Floats
 from fluxbore.fem.reluctivity import VACUUM_RELUCTIVITY
@@ -27,13 +28,13 @@ def axial_force_gradient(solution: Solution, annulus: tuple[float, float]) -> Fl
     curl = kernel.curl[shell]
     psi = solution.psi[mesh.elements[shell]]
     field = np.einsum("mqkn,mn->mqk", curl, psi, optimize=True)
-    s = np.einsum("mqn,mn->mq", _values(curl.shape[1]), mesh.nodes[mesh.elements[shell], 0])
+    s = np.einsum("qn,mn->mq", shape(QUADRATURE_POINTS), mesh.nodes[mesh.elements[shell], 0], optimize=True)
     # Row 1 of the kernel is ψ_z/√(2s): take the radius out again.
     factor = -2 * np.pi * VACUUM_RELUCTIVITY / (s_outer - s_inner) * kernel.weight[shell] * np.sqrt(2 * s)
     gradient = np.einsum(
         "mqn,mq->mn", curl[:, :, 0] * field[:, :, 1, None] + curl[:, :, 1] * field[:, :, 0, None], factor, optimize=True
     )
-    return np.bincount(mesh.elements[shell].ravel(), gradient.ravel(), mesh.nodes.shape[0])
+    return np.asarray(np.bincount(mesh.elements[shell].ravel(), gradient.ravel(), mesh.nodes.shape[0]))
 
 
 def axial_force(solution: Solution, annulus: tuple[float, float]) -> float:
@@ -49,10 +50,3 @@ def incremental_thrust(solution: Solution, annulus: tuple[float, float]) -> Floa
     inner = solution.system.inner
     y = solution.tangent.solve(axial_force_gradient(solution, annulus)[inner])
     return np.array([y @ circuit.density[inner] for circuit in solution.problem.circuits])
-
-
-def _values(points: int) -> Floats:
-    from fluxbore.fem.element import QUADRATURE_POINTS, shape
-
-    assert points == QUADRATURE_POINTS.shape[0]
-    return shape(QUADRATURE_POINTS)[None]

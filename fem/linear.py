@@ -51,7 +51,7 @@ class Pattern:
     @classmethod
     def of_elements(cls, freedom: Ints, unknowns: int) -> Pattern:
         """freedom : (m, k) unknown of each element's node, -1 where there is none."""
-        m, k = freedom.shape
+        k = freedom.shape[1]
         row = np.repeat(freedom, k, axis=1).ravel()
         column = np.tile(freedom, (1, k)).ravel()
         kept = np.flatnonzero((column >= 0) & (row >= column))
@@ -65,7 +65,7 @@ class Pattern:
 
     def assemble(self, matrices: Floats) -> Floats:
         """(nnz,) values of the global matrix from all element matrices (m, k, k)."""
-        return np.bincount(self.targets, matrices.ravel()[self.sources], self.nonzeros)
+        return np.asarray(np.bincount(self.targets, matrices.ravel()[self.sources], self.nonzeros))
 
     def subset(self, elements: Ints) -> tuple[Ints, Ints]:
         """Sources and targets of some elements only, for matrices (len(elements), k, k) of just these."""

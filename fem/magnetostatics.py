@@ -79,7 +79,10 @@ class System:
             frame[index] *= material.reluctivity
         magnets = np.flatnonzero(np.any(frame[mesh.region] != 0, axis=1))
         pull = np.einsum(
-            "mqkn,mq,mk->mn", self.kernel.curl[magnets], self.kernel.weight[magnets], frame[mesh.region[magnets]],
+            "mqkn,mq,mk->mn",
+            self.kernel.curl[magnets],
+            self.kernel.weight[magnets],
+            frame[mesh.region[magnets]],
             optimize=True,
         )
         load = np.bincount(mesh.elements[magnets].ravel(), pull.ravel(), mesh.nodes.shape[0])
@@ -119,9 +122,7 @@ class System:
             m, q, _, six = self.iron_curl.shape
             along = np.einsum("mqkn,mqk->mqn", self.iron_curl, field, optimize=True)
             rows = np.concatenate((self.iron_curl.reshape(m, 2 * q, six), along), axis=1)
-            factor = np.concatenate(
-                (np.repeat(nu * self.iron_weight, 2, axis=1), 2 * slope * self.iron_weight), axis=1
-            )
+            factor = np.concatenate((np.repeat(nu * self.iron_weight, 2, axis=1), 2 * slope * self.iron_weight), axis=1)
             matrices = rows.transpose(0, 2, 1) @ (rows * factor[..., None])
             values += np.bincount(self.iron_targets, matrices.ravel()[self.iron_sources], values.size)
         return values

@@ -62,7 +62,7 @@ class MappedMesh:
 
     def node(self, i: Ints | int, j: Ints | int) -> Ints:
         """Number of the node in z row i and s column j."""
-        return np.asarray(i) * self.r_nodes.size + np.asarray(j)
+        return np.asarray(np.asarray(i) * self.r_nodes.size + np.asarray(j))
 
 
 def mapped_mesh(
@@ -115,12 +115,8 @@ def _grid_topology(nz: int, nr: int) -> tuple[Topology, Ints]:
 
     a, b, c, d = node(0, 0), node(0, 2), node(2, 2), node(2, 0)
     ab, bc, cd, da, middle = node(0, 1), node(1, 2), node(2, 1), node(1, 0), node(1, 1)
-    rising = np.stack(
-        (np.column_stack((a, b, c, ab, bc, middle)), np.column_stack((a, c, d, middle, cd, da))), axis=1
-    )
-    falling = np.stack(
-        (np.column_stack((a, b, d, ab, middle, da)), np.column_stack((b, c, d, bc, cd, middle))), axis=1
-    )
+    rising = np.stack((np.column_stack((a, b, c, ab, bc, middle)), np.column_stack((a, c, d, middle, cd, da))), axis=1)
+    falling = np.stack((np.column_stack((a, b, d, ab, middle, da)), np.column_stack((b, c, d, bc, cd, middle))), axis=1)
     even = ((i + j) % 2 == 0)[:, None, None]
     elements = np.where(even, rising, falling).reshape(-1, 6)
     rows, columns = np.divmod(np.arange((2 * nz + 1) * width), width)

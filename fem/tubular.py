@@ -98,7 +98,9 @@ def solve_positions(
         section = section_at(position)
         grid = mapped_mesh(section, R_CELLS, Z_CELLS, refinement)
         problem = Problem(
-            grid.mesh, tuple(magnetic_material(region) for region in section.regions), circuits(grid.mesh, section.coils)
+            grid.mesh,
+            tuple(magnetic_material(region) for region in section.regions),
+            circuits(grid.mesh, section.coils),
         )
         solution = solve(problem, settings, _predicted(solved[-3:], position, grid))
         solved.append(TubularSolution(position, section, grid, solution))

@@ -88,7 +88,9 @@ class CrossSection:
 AIR = Region("air", None)
 
 
-def paint(r: Breakpoints, z: Breakpoints, rectangles: Sequence[Rectangle]) -> tuple[tuple[Region, ...], NDArray[np.int_]]:
+def paint(
+    r: Breakpoints, z: Breakpoints, rectangles: Sequence[Rectangle]
+) -> tuple[tuple[Region, ...], NDArray[np.int_]]:
     """Regions and cells from rectangles whose edges are breakpoints; later rectangles cover earlier ones."""
     regions = [AIR]
     cells = np.zeros((len(z.intervals), len(r.intervals)), dtype=int)

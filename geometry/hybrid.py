@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from itertools import pairwise
 
 from fluxbore.design.errors import DesignError
 from fluxbore.design.hybrid import PHASES, HybridActuator
@@ -70,7 +71,9 @@ def cross_section(
         start = position - actuator.piston.length
         rectangles.append(
             Rectangle(
-                Region("shaft", materials[actuator.shaft.material]), (0.0, radii[1]), (start, start + actuator.shaft.length)
+                Region("shaft", materials[actuator.shaft.material]),
+                (0.0, radii[1]),
+                (start, start + actuator.shaft.length),
             )
         )
     z_values, z_names = _axial(rectangles, actuator, position, far)
@@ -120,7 +123,7 @@ def _axial(
     values = sorted(set(ends))
     names = []
     first, last = position, position + actuator.array_length
-    for a, b in zip(values, values[1:], strict=False):
+    for a, b in pairwise(values):
         middle = (a + b) / 2
         covering = [
             rectangle.region.name.split()[0]

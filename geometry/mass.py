@@ -20,7 +20,9 @@ class PartMass:
     mass: float
 
 
-def part_masses(assembly: Assembly, actuator: HybridActuator, materials: Mapping[str, Material]) -> tuple[PartMass, ...]:
+def part_masses(
+    assembly: Assembly, actuator: HybridActuator, materials: Mapping[str, Material]
+) -> tuple[PartMass, ...]:
     """Every part with its volume and mass, in the assembly's order.
 
     A coil is drawn as its whole window, of which only the copper's share has mass: enamel and resin are left out.

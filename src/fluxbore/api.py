@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager, nullcontext
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from fluxbore.design import spec as spec_module
-from fluxbore.design.errors import FluxboreError, MissingLibraryError
+from fluxbore.design.errors import FluxboreError, SpecError
 from fluxbore.design.spec import Spec
 from fluxbore.design.spec_file import to_toml
 from fluxbore.design.study import Constraint
@@ -169,15 +169,16 @@ def design(
         files.append(place.write(DESIGN_FILE, design_text(final)))
         try:
             files += export(final, place.path / CAD_FOLDER)
-        except (MissingLibraryError, FluxboreError) as error:
+        except FluxboreError as error:
             warnings.append(f"No STEP files: {error}")
         feasible = chosen is not None or search is None
         findings = DesignResult(final, evaluation, feasible, search, tuple(sweeps), tuple(files), tuple(warnings))
         target = place.path / REPORT_FILE
         seconds = monotonic() - begin
         files.append(_write_report(spec, findings, target, separate, picture, command, seconds))
-        for warning in warnings if say is not None else ():
-            say(warning)
+        if say is not None:
+            for warning in warnings:
+                say(warning)
     return replace(findings, files=tuple(files))
 
 
@@ -206,8 +207,6 @@ def _spec(spec: Spec | Path | str) -> Spec:
 
 def _need(present: bool, key: str, what: str) -> None:
     if not present:
-        from fluxbore.design.errors import SpecError
-
         raise SpecError(f"{key} must be given for {what}; got none.")
 
 
@@ -222,9 +221,9 @@ def _workshop(
 ) -> Iterator[tuple[Folder | None, Journal | None, Executor]]:
     """Folder, journal and workers of one run."""
     place = open_folder(folder, spec, force) if folder is not None else None
-    journal = Journal(place.journal) if place is not None else nullcontext(None)
-    with journal as opened, local_executor(workers) as executor:
-        yield place, opened, executor
+    with ExitStack() as stack:
+        journal = stack.enter_context(Journal(place.journal)) if place is not None else None
+        yield place, journal, stack.enter_context(local_executor(workers))
 
 
 def _write_report(

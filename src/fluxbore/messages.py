@@ -260,15 +260,15 @@ class Bar:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         if self._width:
-            print(file=sys.stderr)
+            sys.stderr.write("\n")
             self._width = 0
 
     def say(self, sentence: str) -> None:
         """A sentence of its own line, quiet or not."""
         if self._width:
-            print(file=sys.stderr)
+            sys.stderr.write("\n")
             self._width = 0
-        print(f"fluxbore: {sentence}", file=sys.stderr)
+        sys.stderr.write(f"fluxbore: {sentence}\n")
 
     def show(self, progress: Progress) -> None:
         """One more design is done."""
@@ -279,10 +279,11 @@ class Bar:
         self._last = now
         line = _line(progress)
         if self._terminal:
-            print("\r" + line.ljust(self._width), end="\n" if last else "", file=sys.stderr, flush=True)
+            sys.stderr.write("\r" + line.ljust(self._width) + ("\n" if last else ""))
             self._width = 0 if last else len(line)
         else:
-            print(line, file=sys.stderr, flush=True)
+            sys.stderr.write(line + "\n")
+        sys.stderr.flush()
 
 
 def _line(progress: Progress) -> str:

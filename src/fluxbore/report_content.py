@@ -47,9 +47,7 @@ def flux_map(spec: Spec) -> FluxMap:
     field = field_map(solved.solution)
     boxes = [(item.region.name, item.r, item.z) for item in solved.section.rectangles]
     boxes += [(f"coil {coil.circuit}", coil.r, coil.z) for coil in solved.section.coils]
-    outlines = tuple(
-        (name, np.array([(r[0], z[0]), (r[1], z[0]), (r[1], z[1]), (r[0], z[1])])) for name, r, z in boxes
-    )
+    outlines = tuple((name, np.array([(r[0], z[0]), (r[1], z[0]), (r[1], z[1]), (r[0], z[1])])) for name, r, z in boxes)
     return FluxMap(field.r, field.z, field.triangles, field.flux, field.flux_density, outlines, position)
 
 
@@ -92,7 +90,7 @@ def _size(row: PartMass) -> str:
 
 
 def slot_comparison(spec: Spec) -> SlotComparison | None:
-    """Equation (2) for a slotted and a slotless stator while the cylinder's wall grows; None where it does not apply."""
+    """Equation (2) for a slotted and a slotless stator while the cylinder's wall grows; None where it fails."""
     from fluxbore.reports.content import SlotComparison
 
     slots = Slots()
