@@ -62,7 +62,7 @@ class Archive:
         """The design at a scaled point, from memory where it was asked for before. Raises BudgetUsedError."""
         tidy = self.box.tidy(point)
         if tidy not in self._memory:
-            self.evaluate([self.box.values(tidy)])
+            self._ask([tidy], [self.box.values(tidy)])
         return self._memory[tidy]
 
     def evaluate(self, designs: Sequence[Mapping[str, float]]) -> list[Candidate]:
@@ -70,8 +70,10 @@ class Archive:
 
         Their order in the history does not depend on which worker is the quickest: a search replays exactly.
         """
-        points = [self.box.point(values) for values in designs]
-        fresh = []
+        return self._ask([self.box.point(values) for values in designs], designs)
+
+    def _ask(self, points: Sequence[Point], designs: Sequence[Mapping[str, float]]) -> list[Candidate]:
+        fresh: list[tuple[Point, Mapping[str, float]]] = []
         for point, values in zip(points, designs, strict=True):
             known = self._memory.get(point)
             if (known is None or known.values != dict(values)) and (point, values) not in fresh:

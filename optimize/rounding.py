@@ -1,4 +1,9 @@
-"""Rounds the optimum to what a workshop makes, and looks again: the nearest steps need not be the best or feasible."""
+"""Rounds the optimum to what a workshop makes, and looks again.
+
+The step next to the optimum need not be the best one, nor feasible: where a limit runs slantwise through the steps, the
+best design of the workshop's is often some steps along it. So the nearest steps are evaluated first, then those that
+quadratic models of all designs seen so far expect to be better.
+"""
 
 from __future__ import annotations
 
@@ -9,65 +14,131 @@ from itertools import product
 
 from fluxbore.design.study import Variable
 from fluxbore.optimize.archive import Archive
-from fluxbore.optimize.outcome import Candidate
-from fluxbore.optimize.problem import better
+from fluxbore.optimize.models import fit
+from fluxbore.optimize.outcome import Candidate, Limit
+from fluxbore.optimize.problem import Merit, better
 
 MOST_COMBINED = 4
 """Variables whose steps below and above are all combined; with more, each goes to its nearest step."""
 
+FURTHER_ROUNDS = 3
+AT_ONCE = 2
+"""Further designs: so many rounds of so many side by side."""
 
-def neighbours(archive: Archive, variables: Sequence[Variable], best: Candidate) -> list[dict[str, float]]:
-    """The workshop's designs around ``best``, the nearest first: every combination of the steps below and above."""
-    stepped = [variable for variable in variables if variable.resolution is not None]
+_REACH = {1: 40, 2: 20, 3: 7, 4: 3}
+_SLACK = 1e-6
+
+
+def reserve(variables: Sequence[Variable]) -> int:
+    """The designs that a search keeps back from its budget for the rounding; 0 without a resolution."""
+    near = _nearest_count(variables)
+    return near + AT_ONCE if near else 0
+
+
+def round_off(
+    archive: Archive, variables: Sequence[Variable], merit: Merit, held: Sequence[Limit], tolerance: float
+) -> Candidate | None:
+    """The best design at the workshop's steps, evaluated; None without a resolution or without a feasible design.
+
+    It may violate a limit where all that were tried do: its checks tell. ``tolerance`` is the relative gain that is
+    worth another design. Stays within the archive's budget.
+    """
+    best = archive.best
+    if best is None or not _nearest_count(variables):
+        return None
+    archive.evaluate(_designs(archive, variables, best, 0)[: min(_nearest_count(variables), archive.left)])
+    if _combined(variables):
+        around = _designs(archive, variables, best, _REACH[len(_stepped(variables))])
+        for _ in range(FURTHER_ROUNDS):
+            expected = _expected(archive, variables, around, merit, held, tolerance)
+            if not expected or not archive.left:
+                break
+            archive.evaluate(expected[: archive.left])
+    return _best_step(archive, variables)
+
+
+def _expected(
+    archive: Archive,
+    variables: Sequence[Variable],
+    designs: Sequence[dict[str, float]],
+    merit: Merit,
+    held: Sequence[Limit],
+    tolerance: float,
+) -> list[dict[str, float]]:
+    """The designs not yet seen of which the models expect the most, if they expect more of them than what is known."""
+    models = fit(archive, merit, held, share=4)
+    if models is None:
+        return []
+    points = [archive.box.point(values) for values in designs]
+    predicted = models.predict(points)
+    known = _best_step(archive, variables)
+    bar = merit.loss(known) if known is not None and known.feasible else None
+    ranked = sorted(
+        (float(row[0]), i)
+        for i, row in enumerate(predicted)
+        if all(miss <= 0 for miss in row[1:]) and (bar is None or row[0] < bar - tolerance)
+    )
+    return [designs[i] for _, i in ranked if not archive.knows(points[i])][:AT_ONCE]
+
+
+def _best_step(archive: Archive, variables: Sequence[Variable]) -> Candidate | None:
+    """The best of all designs seen, the start among them, that the workshop can make."""
+    made = [
+        design
+        for _, design in archive.points
+        if archive.box.contains(design.values) and all(_on_step(v, design.values[v.key]) for v in _stepped(variables))
+    ]
+    return reduce(lambda one, other: other if better(other, one, archive.objective) else one, made) if made else None
+
+
+def _designs(archive: Archive, variables: Sequence[Variable], best: Candidate, reach: int) -> list[dict[str, float]]:
+    """The workshop's designs around ``best``, up to ``reach`` steps beyond the steps next to it, the nearest first."""
     choices = []
     for variable in variables:
         index = archive.box.keys.index(variable.key)
-        low, high = archive.box.lower[index], archive.box.upper[index]
-        value = best.values[variable.key]
-        steps = _steps(variable, value, low, high) or [value]
-        choices.append(steps if len(stepped) <= MOST_COMBINED else steps[:1])
+        bounds = archive.box.lower[index], archive.box.upper[index]
+        steps = _steps(variable, best.values[variable.key], reach, *bounds)
+        choices.append(steps if _combined(variables) else steps[:1])
+    keys = [variable.key for variable in variables]
 
     def distance(values: Sequence[float]) -> float:
-        moved = (
-            (value - best.values[variable.key]) / variable.resolution
-            for variable, value in zip(variables, values, strict=True)
-            if variable.resolution is not None
+        return math.hypot(
+            *(
+                (value - best.values[variable.key]) / variable.resolution
+                for variable, value in zip(variables, values, strict=True)
+                if variable.resolution is not None
+            )
         )
-        return math.hypot(*moved)
 
-    keys = [variable.key for variable in variables]
     return [dict(zip(keys, values, strict=True)) for values in sorted(product(*choices), key=distance)]
 
 
-def _steps(variable: Variable, value: float, low: float, high: float) -> list[float]:
-    """The multiples of the resolution next to ``value`` that lie within the bounds, the nearest first."""
+def _steps(variable: Variable, value: float, reach: int, low: float, high: float) -> list[float]:
+    """The multiples of the resolution around ``value`` within the bounds, the nearest first; else the value itself."""
     if variable.resolution is None:
         return [value]
-    below = math.floor(value / variable.resolution + 1e-6)
-    above = math.ceil(value / variable.resolution - 1e-6)
+    below = math.floor(value / variable.resolution + _SLACK) - reach
+    above = math.ceil(value / variable.resolution - _SLACK) + reach
     # 12 digits: 29 steps of 0.05 mm are the 1.45 mm that a person would type.
-    steps = {float(f"{count * variable.resolution:.12g}") for count in (below, above)}
+    steps = [float(f"{count * variable.resolution:.12g}") for count in range(below, above + 1)]
     slack = 1e-9 * variable.resolution
     within = [min(max(step, low), high) for step in steps if low - slack <= step <= high + slack]
-    return sorted(within, key=lambda step: (abs(step - value), step))
+    return sorted(within, key=lambda step: (abs(step - value), step)) or [value]
 
 
-def count(variables: Sequence[Variable]) -> int:
-    """The most designs that rounding asks for; 0 without a resolution."""
-    stepped = sum(variable.resolution is not None for variable in variables)
-    return 0 if not stepped else 2**stepped if stepped <= MOST_COMBINED else 1
+def _on_step(variable: Variable, value: float) -> bool:
+    count = value / (variable.resolution or 1.0)
+    return abs(count - round(count)) < _SLACK
 
 
-def round_off(archive: Archive, variables: Sequence[Variable]) -> Candidate | None:
-    """The best design at the workshop's resolution next to the archive's best, evaluated; None without a resolution.
+def _stepped(variables: Sequence[Variable]) -> list[Variable]:
+    return [variable for variable in variables if variable.resolution is not None]
 
-    It may violate a limit where all its neighbours do: its checks tell.
-    """
-    best = archive.best
-    if best is None or not count(variables):
-        return None
-    asked = neighbours(archive, variables, best)[: count(variables)]
-    known = [values for values in asked if archive.knows(archive.box.point(values))]
-    fresh = [values for values in asked if values not in known][: archive.left]
-    made = archive.evaluate([values for values in asked if values in known or values in fresh])
-    return reduce(lambda one, other: other if better(other, one, archive.objective) else one, made) if made else None
+
+def _combined(variables: Sequence[Variable]) -> bool:
+    return len(_stepped(variables)) <= MOST_COMBINED
+
+
+def _nearest_count(variables: Sequence[Variable]) -> int:
+    stepped = len(_stepped(variables))
+    return 0 if not stepped else 2**stepped if _combined(variables) else 1

@@ -4,30 +4,22 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Sequence
 
 from fluxbore.design.errors import FluxboreError, SpecError
 from fluxbore.design.spec import Spec
-from fluxbore.design.study import Search
-from fluxbore.optimize import nlopt_loop, rounding
+from fluxbore.optimize import nlopt_loop
 from fluxbore.optimize.archive import Archive, BudgetUsedError
 from fluxbore.optimize.evaluate import evaluate as evaluate_design
 from fluxbore.optimize.evaluation import failure
-from fluxbore.optimize.evaluator import Evaluate, Evaluated, Evaluator
+from fluxbore.optimize.evaluator import Evaluate, Evaluator
 from fluxbore.optimize.executor import Executor, SerialExecutor
 from fluxbore.optimize.journal import Journal
-from fluxbore.optimize.outcome import Candidate, Limit, SearchResult, SweepResult
-from fluxbore.optimize.polish import polish
-from fluxbore.optimize.problem import Box, Merit, Point, better, box, candidate, resolve_limits, violation
+from fluxbore.optimize.outcome import Candidate, SearchResult, SweepResult
+from fluxbore.optimize.problem import Box, Merit, box, candidate, resolve_limits, violation
 from fluxbore.optimize.progress import Report, Tracker
+from fluxbore.optimize.stages import FIRST_STEP, Stages
 from fluxbore.optimize.sweep import DEFAULT_OBJECTIVE, numbers
-
-FIRST_STEP = 0.1
-"""First step of the local searches, of each variable's range."""
-
-GLOBAL_SHARE = 0.6
-"""What a global algorithm gets of the budget; the rest is for the local search after it."""
 
 NETWORK_CALLS = 150
 """Calls of the network for each variable in the global search for its optimum; it costs a thousandth of the FEM."""
@@ -76,139 +68,24 @@ def run_search(
     tracker = Tracker("search", budget, progress, study.objective)
     # A start outside the bounds is not one of the search's designs, but it has cost one.
     archive = Archive(evaluator, bounds, study.objective, limits, budget if inside else budget - 1, tracker)
-    run = _Run(base, archive, start)
-    reason = run.all(first if inside else first[1:], done if inside else done[1:]) + _shortfall(archive)
+    stages = Stages(
+        archive=archive,
+        study=study,
+        merit=Merit(study.objective, _size(start, *(network,) if network else ())),
+        held=[limit for limit in limits if limit.subject not in bounds.keys],
+        back_off=study.search.relative_tolerance / 10,
+    )
+    reason = stages.run(first if inside else first[1:], done if inside else done[1:]) + _shortfall(archive)
     return SearchResult(
         start=start,
         network_start=network,
         history=tuple(archive.history),
         best_so_far=tuple(archive.best_so_far),
         best=archive.best,
-        rounded=run.rounded,
+        rounded=stages.rounded,
         stop_reason=reason,
         seconds=time.monotonic() - begin,
     )
-
-
-@dataclass(slots=True)
-class _Run:
-    """The stages of one search over its archive."""
-
-    base: Spec
-    archive: Archive
-    start: Candidate
-    rounded: Candidate | None = None
-    penalties: dict[Point, float] = field(default_factory=dict)
-
-    def all(self, first: Sequence[Mapping[str, float]], done: Sequence[Evaluated]) -> str:
-        """Run every stage; returns in words why the search ended."""
-        variables, most = self.base.study.variables, self.archive.budget
-        reserve = min(rounding.count(variables), most // 3)
-        self.archive.budget = most - reserve
-        try:
-            begun = [self.archive.adopt(v, d.evaluation, d.reused) for v, d in zip(first, done, strict=True)]
-            reason = self.search(begun)
-        except KeyboardInterrupt:
-            return "The search was interrupted."
-        except Exception as error:
-            return _mishap(error)
-        self.archive.budget = most
-        try:
-            self.rounded = rounding.round_off(self.archive, variables)
-        except KeyboardInterrupt:
-            return f"{reason} The rounding to the workshop's steps was interrupted."
-        except Exception as error:
-            return f"{reason} The rounding to the workshop's steps failed: {_mishap(error)}"
-        return reason
-
-    def search(self, begun: Sequence[Candidate]) -> str:
-        """NLopt from the better of the first designs, then the polishing; BudgetUsedError is an ending like others."""
-        archive, search = self.archive, self.base.study.search
-        objective = archive.objective
-        spent = f"The search used up its budget of {search.max_evaluations} FEM designs."
-        if not begun:
-            return spent
-        origin = begun[0]
-        for other in begun[1:]:
-            origin = other if better(other, origin, objective) else origin
-        held = [limit for limit in archive.limits if limit.subject not in archive.box.keys]
-        merit = Merit(objective, _size(self.start, origin))
-        # Searches close in on a limit from both sides; leaving it this much room makes what they find feasible.
-        back_off = search.relative_tolerance / 10
-        point = archive.box.point(origin.values)
-        try:
-            reason = ""
-            if search.algorithm in nlopt_loop.GLOBAL:
-                reason = f"{search.algorithm} looked at the whole range; then COBYLA looked around its best. "
-                self.explore(search, point, merit, held, back_off)
-                best = archive.best
-                point = point if best is None else archive.box.point(best.values)
-            local = "BOBYQA" if search.algorithm == "BOBYQA" else "COBYLA"
-            self.prefetch(point, both=local == "BOBYQA")
-            reason += self.loop(local, search, point, merit, held, back_off)
-            polish(archive, merit, held, back_off, search.relative_tolerance / 10)
-        except BudgetUsedError:
-            return reason + spent
-        return reason
-
-    def explore(self, search: Search, point: Point, merit: Merit, held: Sequence[Limit], back_off: float) -> None:
-        """Let a global algorithm have its share of the budget; it finds the valley, a local one finds its floor."""
-        archive, most = self.archive, self.archive.budget
-        archive.budget = most - int((1 - GLOBAL_SHARE) * archive.left)
-        try:
-            self.loop(search.algorithm, search, point, merit, held, back_off)
-        except BudgetUsedError:
-            pass
-        finally:
-            archive.budget = most
-
-    def loop(
-        self, algorithm: str, search: Search, point: Point, merit: Merit, held: Sequence[Limit], back_off: float
-    ) -> str:
-        """One run of NLopt over the archive; returns why it ended. Raises what stopped it from within."""
-        ending = nlopt_loop.minimise(
-            algorithm,
-            lambda x: self.see(x, merit, held, back_off),
-            len(held),
-            point,
-            step=FIRST_STEP,
-            objective_tolerance=search.relative_tolerance / 10,
-            variable_tolerance=search.relative_tolerance * 10,
-            seed=search.seed,
-            calls=20 * search.max_evaluations + 1000,
-        )
-        if ending.stopped_by is not None:
-            raise ending.stopped_by
-        return ending.reason
-
-    def see(self, x: Point, merit: Merit, held: Sequence[Limit], back_off: float) -> tuple[float, tuple[float, ...]]:
-        """What NLopt sees at a scaled point.
-
-        A design without figures is seen as worse than the worst sound one so far by the objective's own size, and as
-        missing every limit by all of it: finite, so that the algorithms' models survive it. The number stays within
-        NLopt; the history has the design with its reason.
-        """
-        made = self.archive.at(x)
-        loss = merit.loss(made)
-        if loss is not None:
-            return loss, tuple(miss + back_off for miss in merit.misses(made, held))
-        point = self.archive.box.tidy(x)
-        if point not in self.penalties:
-            sound = [loss for design in self.archive.history if (loss := merit.loss(design)) is not None]
-            self.penalties[point] = max(sound, default=0.0) + 1.0
-        return self.penalties[point], (1.0,) * len(held)
-
-    def prefetch(self, origin: Point, both: bool) -> None:
-        """Evaluate side by side what COBYLA (and on ``both`` sides BOBYQA) asks for first, one by one.
-
-        A point that is not asked for after all is a design seen, no more: the models of the polishing use it.
-        """
-        points = []
-        for i, x in enumerate(origin):
-            steps = (FIRST_STEP, -FIRST_STEP) if both else (FIRST_STEP if x + FIRST_STEP <= 1 else -FIRST_STEP,)
-            points += [self.archive.box.tidy([*origin[:i], x + step, *origin[i + 1 :]]) for step in steps]
-        fresh = [point for point in dict.fromkeys(points) if not self.archive.knows(point)][: self.archive.left]
-        self.archive.evaluate([self.archive.box.values(point) for point in fresh])
 
 
 def network_optimum(base: Spec, bounds: Box, evaluate: Evaluate) -> Candidate | None:
@@ -228,8 +105,7 @@ def network_optimum(base: Spec, bounds: Box, evaluate: Evaluate) -> Candidate | 
     calls = NETWORK_CALLS * len(bounds.keys)
     archive = Archive(evaluator, bounds, objective, limits, 2 * calls)
     made = candidate(base, objective, limits, bounds.keys, start)
-    run = _Run(base, archive, made)
-    merit = Merit(objective, _size(made, made))
+    stages = Stages(archive, base.study, Merit(objective, _size(made)), limits, back_off=0.0)
     for algorithm in ("DIRECT-L", "COBYLA"):
         best = archive.best
         if algorithm == "COBYLA" and best is None:
@@ -237,7 +113,7 @@ def network_optimum(base: Spec, bounds: Box, evaluate: Evaluate) -> Candidate | 
         origin = archive.box.point({key: base.number(key) for key in bounds.keys} if best is None else best.values)
         ending = nlopt_loop.minimise(
             algorithm,
-            lambda x: run.see(x, merit, limits, 0.0),
+            stages.see,
             len(limits),
             origin,
             step=FIRST_STEP / 2,
@@ -308,9 +184,3 @@ def _size(*designs: Candidate) -> float:
         if design.objective and math.isfinite(design.objective):
             return abs(design.objective)
     return 1.0
-
-
-def _mishap(error: Exception) -> str:
-    return (
-        str(error) if isinstance(error, FluxboreError) else f"The search failed with {type(error).__name__}: {error}."
-    )

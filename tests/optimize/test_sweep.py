@@ -134,9 +134,9 @@ def test_killed_at_any_moment_it_ends_with_the_same_table(tmp_path):
         if attempt < 12:
             # Half of the kills at a random moment, half just after a random number of designs.
             if attempt % 2:
-                time.sleep(chance.uniform(0.0, 0.7))
+                time.sleep(chance.uniform(0.0, 0.6))
             else:
-                goal = before + chance.randint(1, 15)
+                goal = before + chance.randint(1, 12)
                 while process.poll() is None and len(lines(trace)) < goal:
                     time.sleep(0.001)
             process.send_signal(signal.SIGKILL)
@@ -149,7 +149,7 @@ def test_killed_at_any_moment_it_ends_with_the_same_table(tmp_path):
         assert process.returncode == -signal.SIGKILL, errors.decode()
         with Journal(folder / "journal.jsonl") if folder.exists() else Journal(tmp_path / "unused") as journal:
             recorded = {trace_of(json.loads(line)["values"]) for line in journal.path.read_text().splitlines()}
-    assert kills >= 3
+    assert kills >= 3, "the machine is so fast that the test is none"
     assert (folder / "results.csv").read_bytes() == expected.encode()
     counted = lines(trace)
     assert len(counted) - len(set(counted)) <= 2 * kills, "only what was in flight may be computed again"

@@ -74,7 +74,7 @@ def plain(design: Spec, fidelity="fem") -> Evaluation:
 
 
 def slow(design: Spec, fidelity="fem") -> Evaluation:
-    time.sleep(0.01)
+    time.sleep(0.02)
     return plain(design, fidelity)
 
 

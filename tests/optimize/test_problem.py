@@ -1,0 +1,88 @@
+"""Limits with numbers, held against designs; bounds and scaling."""
+
+import math
+
+import pytest
+import toy
+from hypothesis import given
+from hypothesis import strategies as st
+
+from fluxbore.design.errors import DesignError, SpecError
+from fluxbore.design.performance import Performance
+from fluxbore.design.study import Constraint, Variable
+from fluxbore.optimize.evaluation import OK, Evaluation, failure
+from fluxbore.optimize.outcome import Limit
+from fluxbore.optimize.problem import Box, box, check, resolve_limits
+
+
+def evaluation(fidelity="fem", **figures):
+    return Evaluation(fidelity, OK, (), Performance(**figures))
+
+
+def test_limits_get_their_numbers_from_the_start():
+    spec = toy.spec(
+        x=2.0,
+        constraints=(
+            Constraint("stray_field", upper=1.1, relative_to_start=True),
+            Constraint("total_mass", lower=1.0, upper=3.0),
+            Constraint(toy.X, upper=0.5, relative_to_start=True),
+        ),
+    )
+    assert resolve_limits(spec, evaluation(stray_field=0.2)) == (
+        Limit("stray_field", "<=", 1.1 * 0.2),
+        Limit("total_mass", ">=", 1.0),
+        Limit("total_mass", "<=", 3.0),
+        Limit(toy.X, "<=", 1.0),
+    )
+    assert [limit.subject for limit in resolve_limits(spec, evaluation("network"))] == ["total_mass"] * 2 + [toy.X]
+    with pytest.raises(DesignError, match=r"stray_field of the start design is not known \(No convergence\.\)"):
+        resolve_limits(spec, failure("fem", "not converged", "No convergence."))
+
+
+def test_a_limit_is_held_to_the_last_digits_that_rounding_leaves():
+    """Catches an incumbent that is feasible by the search's tolerance only."""
+    limits = (Limit("stray_field", "<=", 0.1), Limit(toy.X, ">=", 2.0))
+    for miss, satisfied in ((0.0, True), (5e-10, True), (2e-9, False), (-1e-12, True)):
+        (upper, lower) = check(limits, {toy.X: 2.0 * (1 - miss)}, Performance(stray_field=0.1 * (1 + miss)))
+        assert (upper.satisfied, lower.satisfied) == (satisfied, satisfied)
+        assert upper.active
+        assert lower.active
+        assert upper.margin == pytest.approx(-miss, abs=1e-15)
+    (far, _) = check(limits, {toy.X: 2.0}, Performance(stray_field=0.05))
+    assert (far.satisfied, far.active, far.margin) == (True, False, 0.5)
+
+
+def test_a_figure_that_is_not_known_counts_against_the_finite_elements_only():
+    limits = (Limit("stray_field", "<=", 0.1),)
+    assert not check(limits, {}, Performance(), "fem")[0].satisfied
+    (skipped,) = check(limits, {}, Performance(), "network")
+    assert (skipped.satisfied, skipped.value, skipped.margin, skipped.active) == (True, None, None, False)
+    assert not check(limits, {}, Performance(stray_field=math.nan), "fem")[0].satisfied
+
+
+def test_limits_on_variables_narrow_their_bounds():
+    spec = toy.spec(variables=(Variable(toy.X, 0.0, 4.0), Variable(toy.Y, 1.0, 2.0)))
+    bounds = box(spec, [Limit(toy.X, ">=", 0.5), Limit(toy.X, "<=", 9.0), Limit("stray_field", "<=", 0.0)])
+    assert (bounds.lower, bounds.upper) == ((0.5, 1.0), (4.0, 2.0))
+    with pytest.raises(SpecError, match=r"actuator\.x would have to be at least 5000 mm and at most 4000 mm"):
+        box(spec, [Limit(toy.X, ">=", 5.0)])
+
+
+@given(
+    low=st.floats(-1e3, 1e3),
+    span=st.floats(1e-3, 1e3),
+    x=st.floats(-0.5, 1.5),
+)
+def test_scaling_never_leaves_the_bounds_and_is_settled_after_one_way(low, span, x):
+    """Catches a bound that is overstepped by a rounding error, and a point that drifts with every conversion."""
+    bounds = Box(("k",), (low,), (low + span,))
+    point = bounds.tidy([x])
+    values = bounds.values(point)
+    assert low <= values["k"] <= low + span
+    assert bounds.contains(values)
+    assert bounds.point(values)[0] == pytest.approx(point[0], abs=2e-9)
+
+
+def test_a_bound_without_room_is_no_division_by_zero():
+    bounds = Box(("k",), (2.0,), (2.0,))
+    assert bounds.values(bounds.point({"k": 7.0})) == {"k": 2.0}
