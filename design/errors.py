@@ -2,6 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator, Mapping
+from itertools import islice
+from typing import TypeVar
+
+_T = TypeVar("_T")
+
 
 class FluxboreError(Exception):
     """Root of every error that fluxbore raises on purpose; its text is the sentence shown to the user."""
@@ -25,3 +31,37 @@ class OutputError(FluxboreError):
 
 class MissingLibraryError(FluxboreError):
     """An optional library, or a system library beneath it, is missing; the text says how to get it."""
+
+
+LONGEST_SHOWN = 60
+"""Characters of a wrong value that a sentence quotes."""
+
+
+def shown(raw: object, depth: int = 2) -> str:
+    """What a file holds, as it would stand in TOML: on one line, and cut where it is long or deeply nested."""
+    if isinstance(raw, str):
+        return f'"{one_line(_cut(raw))}"'
+    if isinstance(raw, bool):
+        return "true" if raw else "false"
+    if raw is None:
+        return "none"
+    if isinstance(raw, Mapping):
+        items = [f"{key} = {shown(value, depth - 1)}" for key, value in _few(raw.items())] if depth else ["..."]
+        return _cut(one_line("{ " + ", ".join(items) + " }")) if raw else "an empty table"
+    if isinstance(raw, (list, tuple)):
+        items = [shown(value, depth - 1) for value in _few(raw)] if depth else ["..."]
+        return _cut(one_line("[" + ", ".join(items) + "]"))
+    return _cut(str(raw))
+
+
+def one_line(text: str) -> str:
+    """The text with whatever is no printable character written as an escape, so that it stays one harmless line."""
+    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
+
+
+def _cut(text: str) -> str:
+    return text if len(text) <= LONGEST_SHOWN else text[: LONGEST_SHOWN - 3] + "..."
+
+
+def _few(items: Iterable[_T]) -> Iterator[_T]:
+    return islice(items, LONGEST_SHOWN)

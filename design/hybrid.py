@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from itertools import pairwise
 
 from fluxbore.design.errors import DesignError
 from fluxbore.design.keys import Value, Values
@@ -199,11 +200,24 @@ class HybridActuator:
             ("actuator.back_yoke.inner_diameter", self.back_yoke.inner_diameter),
             ("actuator.back_yoke.outer_diameter", self.back_yoke.outer_diameter),
         )
-        for (inner, small), (outer, large) in zip(steps, steps[1:], strict=False):
+        for (inner, small), (outer, large) in pairwise(steps):
             touching = inner == "actuator.winding.outer_diameter"
             if large < small or (large <= small * (1 + 1e-9) and not touching):
                 verb = "must not be below" if touching else "must exceed"
                 raise DesignError(f"{outer} {verb} {inner} {_mm(small)}; got {_mm(large)}.")
+        if self.mover.ring_width < 0:
+            raise DesignError(
+                "actuator.mover.magnet_thickness must be at most actuator.mover.pole_pitch "
+                f"{_mm(self.mover.pole_pitch)}; got {_mm(self.magnet_thickness)}."
+            )
+        yoke = self.back_yoke
+        for key, overhang in (("front_overhang", yoke.front_overhang), ("back_overhang", yoke.back_overhang)):
+            if overhang < 0:
+                raise DesignError(
+                    "actuator.back_yoke.length must cover the winding and the other overhang, at least "
+                    f"{_mm(self.yoke_end - self.yoke_start - overhang)}; got {_mm(self.yoke_end - self.yoke_start)}, "
+                    f"which leaves actuator.back_yoke.{key} {_mm(overhang)}."
+                )
         if self.mover.ring_width >= self.mover.pole_pitch * (1 - 1e-9):
             raise DesignError(
                 "actuator.mover.ring_width must be below actuator.mover.pole_pitch "
@@ -237,6 +251,11 @@ class HybridActuator:
             raise DesignError(
                 f"actuator.cylinder.length must exceed the chamber {_mm(chamber)} (magnet array, two pistons and the "
                 f"stroke); got {_mm(cylinder.length)}."
+            )
+        if cylinder.catalogue_bore <= self.shaft.outer_diameter:
+            raise DesignError(
+                "actuator.cylinder.catalogue_bore must exceed actuator.shaft.outer_diameter "
+                f"{_mm(self.shaft.outer_diameter)}; got {_mm(cylinder.catalogue_bore)}."
             )
         if piston.fin_inner_diameter >= cylinder.inner_diameter:
             raise DesignError(
@@ -299,13 +318,9 @@ def resolve(given: Values) -> dict[str, Value]:
         values[yoke + "back_overhang"] = number(yoke + "length") - wound - number(yoke + "front_overhang")
 
     if winding + "outer_diameter" not in values:
-        values[winding + "outer_diameter"] = (
-            number(yoke + "inner_diameter") - 2 * number(winding + "yoke_clearance")
-        )
+        values[winding + "outer_diameter"] = number(yoke + "inner_diameter") - 2 * number(winding + "yoke_clearance")
     else:
-        values[winding + "yoke_clearance"] = (
-            number(yoke + "inner_diameter") - number(winding + "outer_diameter")
-        ) / 2
+        values[winding + "yoke_clearance"] = (number(yoke + "inner_diameter") - number(winding + "outer_diameter")) / 2
 
     window = coil_width * (number(winding + "outer_diameter") - number("actuator.cylinder.outer_diameter")) / 2
     room = number(winding + "sets_per_phase") * window

@@ -48,7 +48,9 @@ HYBRID_KEYS: tuple[Key, ...] = (
     _length("mover.pole_pitch", "tau", "pole pitch"),
     _length("mover.ring_width", "tau_f", "axial thickness of the soft-magnetic rings between the magnets", zero=True),
     _length("mover.magnet_thickness", "tau_m", "axial thickness of a magnet"),
-    Key("actuator.mover.pole_pairs", "pole pairs of the magnet array", kind="integer", symbol="p", minimum=1, maximum=50),
+    Key(
+        "actuator.mover.pole_pairs", "pole pairs of the magnet array", kind="integer", symbol="p", minimum=1, maximum=50
+    ),
     _length("mover.outer_diameter", "D_m", "magnet and ring outer diameter"),
     _material("mover.magnet", "magnet grade: temperature coefficients, coercivity, density"),
     Key(
@@ -93,7 +95,14 @@ HYBRID_KEYS: tuple[Key, ...] = (
         maximum=1e9,
         default=0.6e6,
     ),
-    Key("operating_point.current", "amplitude of the balanced three-phase current", dimension="current", minimum=0.0, maximum=1e6, default=1.0),
+    Key(
+        "operating_point.current",
+        "amplitude of the balanced three-phase current",
+        dimension="current",
+        minimum=0.0,
+        maximum=1e6,
+        default=1.0,
+    ),
     Key(
         "operating_point.winding_temperature",
         "temperature of the winding, for its resistance",

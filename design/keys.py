@@ -8,11 +8,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from decimal import Decimal
 
-from fluxbore.design.errors import SpecError
-from fluxbore.design.units import DIMENSIONS, format_quantity, parse_quantity
+from fluxbore.design.errors import SpecError, one_line, shown
+from fluxbore.design.units import DIFFERENCES, DIMENSIONS, format_quantity, parse_quantity
+
+LONGEST_WORD = 400
+"""Characters of a name or a source; more than this is some other text in the wrong place."""
 
 Value = float | int | str
 """What a key holds once read: an SI float, a count, or a word."""
@@ -58,33 +61,44 @@ class Key:
             value: Value = parse_quantity(raw, self.dimension, self.name)
         elif self.kind == "integer":
             if not isinstance(raw, int) or isinstance(raw, bool):
-                raise SpecError(f"{self.name} must be a whole number, such as 4; got {_shown(raw)}.")
+                raise SpecError(f"{self.name} must be a whole number, such as 4; got {shown(raw)}.")
             value = raw
         elif self.kind == "number":
-            if not isinstance(raw, (int, float)) or isinstance(raw, bool) or not math.isfinite(raw):
-                raise SpecError(f"{self.name} must be a plain finite number without a unit; got {_shown(raw)}.")
+            if not isinstance(raw, (int, float)) or isinstance(raw, bool) or not _finite(raw):
+                raise SpecError(f"{self.name} must be a plain finite number without a unit; got {shown(raw)}.")
             value = float(raw)
         else:
             if not isinstance(raw, str) or not raw.strip():
-                raise SpecError(f"{self.name} must be a word in quotes; got {_shown(raw)}.")
+                raise SpecError(f"{self.name} must be text in quotes; got {shown(raw)}.")
             value = raw.strip()
+            if one_line(value) != value:
+                raise SpecError(f"{self.name} must be one line of printable text; got {shown(raw)}.")
+            if len(value) > LONGEST_WORD:
+                raise SpecError(f"{self.name} must have at most {LONGEST_WORD} characters; got {len(value)}.")
         self.check(value)
         return value
 
     def check(self, value: Value) -> None:
         """Raise SpecError where the value breaks a limit of this key."""
         if self.choices and value not in self.choices:
-            raise SpecError(f'{self.name} must be one of {", ".join(self.choices)}; got "{value}".')
+            raise SpecError(f"{self.name} must be one of {', '.join(self.choices)}; got {shown(value)}.")
         if isinstance(value, str):
             return
-        if not math.isfinite(value):
-            raise SpecError(f"{self.name} must be finite; got {value}.")
+        if not _finite(value):
+            raise SpecError(f"{self.name} must be finite; got {shown(value)}.")
         if self.above is not None and not value > self.above:
             raise SpecError(f"{self.name} must exceed {self.show(self.above)}; got {self.show(value)}.")
         if self.minimum is not None and value < self.minimum:
             raise SpecError(f"{self.name} must be at least {self.show(self.minimum)}; got {self.show(value)}.")
         if self.maximum is not None and value > self.maximum:
             raise SpecError(f"{self.name} must be at most {self.show(self.maximum)}; got {self.show(value)}.")
+
+    @property
+    def difference(self) -> Key:
+        """A key for a step of this one's values: of 5 K and not 5 degC, which is 278 K."""
+        return replace(
+            self, dimension=DIFFERENCES.get(self.dimension, self.dimension), above=None, minimum=None, maximum=None
+        )
 
     def show(self, value: Value, digits: int = 6) -> str:
         """The value as a person would write it: in the preferred unit."""
@@ -121,7 +135,7 @@ class Alternatives:
 
 
 def _exact(value: float, dimension: str) -> str:
-    """A text whose reading gives this very float back where the unit is a decimal one, else the closest of 17 digits."""
+    """A text whose reading gives this very float back where the unit allows it, else the closest of 17 digits."""
     preferred = DIMENSIONS[dimension].preferred
     unit = DIMENSIONS[dimension].units[preferred]
     if unit.offset == 0.0:
@@ -146,8 +160,12 @@ def _count_word(count: int) -> str:
     return {1: "one", 2: "two", 3: "three"}.get(count, str(count))
 
 
-def _shown(raw: object) -> str:
-    return f'"{raw}"' if isinstance(raw, str) else repr(raw)
+def _finite(number: float) -> bool:
+    """Whether a float holds it; a whole number may be too large for one."""
+    try:
+        return math.isfinite(number)
+    except OverflowError:
+        return False
 
 
 def preferred_unit(key: Key) -> str:

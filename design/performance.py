@@ -13,7 +13,7 @@ from fluxbore.design.units import DIMENSIONS
 
 
 def _figure(dimension: str, doc: str) -> float | None:
-    return field(default=None, metadata={"dimension": dimension, "doc": doc})  # type: ignore[no-any-return]
+    return field(default=None, metadata={"dimension": dimension, "doc": doc})
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -41,7 +41,8 @@ class Performance:
         "over the window",
     )
     yoke_flux_density: float | None = _figure(
-        "flux density", "axial flux density averaged over the yoke's cross-section, largest along it and over the window"
+        "flux density",
+        "axial flux density averaged over the yoke's cross-section, largest along it and over the window",
     )
     ring_flux_density: float | None = _figure(
         "flux density", "radial flux density at the outside of an inner soft-magnetic ring, mean over its width"
@@ -53,7 +54,9 @@ class Performance:
     demagnetised_fraction: float | None = _figure(
         "fraction", "share of the magnets' volume whose reverse field exceeds the intrinsic coercivity at temperature"
     )
-    electric_loading: float | None = _figure("electric loading", "peak K_sp of the sinusoidal current sheet at the spec's current")
+    electric_loading: float | None = _figure(
+        "electric loading", "peak K_sp of the sinusoidal current sheet at the spec's current"
+    )
     copper_loss: float | None = _figure("power", "3/2 I^2 R at the spec's current amplitude")
     outer_diameter: float | None = _figure("length", "of the whole actuator")
     length: float | None = _figure("length", "of the stator over its end caps")

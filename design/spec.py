@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from fluxbore.design import hybrid, hybrid_keys, materials
-from fluxbore.design.errors import SpecError
+from fluxbore.design.errors import SpecError, shown
 from fluxbore.design.hybrid import HybridActuator
 from fluxbore.design.keys import Alternatives, Key, Value, Values
 from fluxbore.design.study import Study
@@ -26,9 +26,13 @@ LARGEST_FILE = 4_000_000
 """Bytes; a specification is a page, so more than this is some other file."""
 
 
+DEEPEST = 20
+"""Levels of tables and lists; a specification has six."""
+
+
 @dataclass(frozen=True, slots=True)
 class Kind:
-    """A kind of actuator as the reader sees it: its keys, which exclude one another, and how values become parameters."""
+    """A kind of actuator for the reader: its keys, which of them exclude one another, how they become parameters."""
 
     name: str
     keys: tuple[Key, ...]
@@ -176,23 +180,53 @@ def loads(
     """Read a specification from a text; ``base`` is the folder that file names in it are relative to."""
     try:
         raw = tomllib.loads(text)
-    except (tomllib.TOMLDecodeError, RecursionError) as error:
-        raise SpecError(f"{source} is not valid TOML: {error or 'too deeply nested'}.") from error
+    except tomllib.TOMLDecodeError as error:
+        raise SpecError(f"{source} is not valid TOML: {str(error).rstrip('.')}.") from error
+    except RecursionError as error:
+        raise SpecError(f"{source} must be nested at most {DEEPEST} levels deep; it is deeper.") from error
+    except ValueError as error:  # Python's own limit on the digits of a whole number
+        raise SpecError(f"{source} is not valid TOML: a number in it has too many digits.") from error
+    _check_tree(raw, source)
     kind = _kind(raw, source)
     for key, value in (overrides or {}).items():
         _override(raw, key, value, kind)
+    _check_tree(raw, "--set")
     kind = _kind(raw, source)
     return _read(raw, kind, base or Path())
 
 
+def _check_tree(raw: object, source: str) -> None:
+    """Refuse what TOML forbids and Python lets pass, before anything stumbles over it."""
+    level: list[object] = [raw]
+    for _ in range(DEEPEST):
+        below: list[object] = []
+        for item in level:
+            if isinstance(item, dict):
+                below += [*item, *item.values()]
+            elif isinstance(item, list):
+                below += item
+            elif isinstance(item, int) and not -(2**63) <= item < 2**63:
+                raise SpecError(
+                    f"{source} must hold whole numbers of at most 64 bits; got one of {len(str(item))} digits."
+                )
+            elif isinstance(item, str) and any(c == "\0" or "\ud800" <= c <= "\udfff" for c in item):
+                raise SpecError(f"{source} must hold text without null characters and broken bytes; got {shown(item)}.")
+        level = below
+        if not level:
+            return
+    raise SpecError(f"{source} must be nested at most {DEEPEST} levels deep; it is deeper.")
+
+
 def _kind(raw: Mapping[str, Any], source: str) -> Kind:
     actuator = raw.get("actuator")
+    if actuator is not None and not isinstance(actuator, dict):
+        raise SpecError(f"actuator must be a section of keys, [actuator]; got {shown(actuator)}.")
     name = actuator.get("kind") if isinstance(actuator, dict) else None
     known = ", ".join(f'"{kind}"' for kind in KINDS)
     if name is None:
         raise SpecError(f"{source} must hold actuator.kind, one of {known}; got none.")
     if not isinstance(name, str) or name not in KINDS:
-        raise SpecError(f"actuator.kind must be one of {known}; got {name!r}.")
+        raise SpecError(f"actuator.kind must be one of {known}; got {shown(name)}.")
     return KINDS[name]
 
 
@@ -200,14 +234,17 @@ def _read(raw: Mapping[str, Any], kind: Kind, base: Path) -> Spec:
     sections = {"actuator", "operating_point", "solver", "study", "materials"}
     for section, content in raw.items():
         if section not in sections:
-            raise SpecError(f"{section} is not a section of a specification; there are {', '.join(sorted(sections))}.")
+            hint = _suggestion(section, [key.section for key in kind.keys])
+            raise SpecError(
+                f"{section} is not a section of a specification, which has {', '.join(sorted(sections))}{hint}."
+            )
         if not isinstance(content, dict):
-            raise SpecError(f"{section} must be a section of keys; got {content!r}.")
+            raise SpecError(f"{section} must be a section of keys, [{section}]; got {shown(content)}.")
     own = raw.get("materials", {})
     library = dict(materials.standard())
     for name, table in own.items():
         if not isinstance(table, dict):
-            raise SpecError(f"materials.{name} must be a section of keys; got {table!r}.")
+            raise SpecError(f"materials.{name} must be a section of keys; got {shown(table)}.")
         library[name] = materials.from_table(name, table, f"materials.{name}", base)
     given: dict[str, Value] = {}
     notes: list[Note] = []
@@ -228,8 +265,30 @@ def _read(raw: Mapping[str, Any], kind: Kind, base: Path) -> Spec:
     _check_window(spec)
     study = read_study(raw.get("study", {}), kind.keys, kind.alternatives, spec.values)
     spec = replace(spec, study=study)
-    spec.for_study()
+    _check_study(spec)
     return spec
+
+
+def _check_study(spec: Spec) -> None:
+    """What only the whole specification tells of a study: who moves what, and what then stays as it is."""
+    base = spec.for_study()
+    for sweep in spec.study.sweeps:
+        base.pinned(axis.key for axis in sweep.axes)
+    moving = {variable.key for variable in spec.study.variables}
+    for i, constraint in enumerate(spec.study.constraints if moving else ()):
+        name = constraint.subject
+        if constraint.relative_to_start or name in moving or name not in base.given:
+            continue
+        value, show = base.number(name), _known(spec.kind, name).show
+        for limit, word, missed in (
+            (constraint.lower, "at least", constraint.lower is not None and value < constraint.lower),
+            (constraint.upper, "at most", constraint.upper is not None and value > constraint.upper),
+        ):
+            if missed and limit is not None:
+                raise SpecError(
+                    f"study.constraints.{i} cannot be met: {name} would have to be {word} {show(limit)}, "
+                    f"but no variable moves it from {show(value)}."
+                )
 
 
 def _flatten(
@@ -241,10 +300,13 @@ def _flatten(
             continue
         key = known.get(name)
         if key is None:
-            if isinstance(raw, dict) and any(other.startswith(name + ".") for other in known):
+            if any(other.startswith(name + ".") for other in known):
+                if not isinstance(raw, dict):
+                    raise SpecError(f"{name} must be a section of keys, [{name}]; got {shown(raw)}.")
                 _flatten(raw, name, known, given, notes)
                 continue
-            raise SpecError(f"{name} is not a key of this specification{_suggestion(name, known)}.")
+            names = {key.section for key in known.values()} if isinstance(raw, dict) else known
+            raise SpecError(f"{name} is not a key of this specification{_suggestion(name, names)}.")
         if isinstance(raw, dict):
             raw = _annotated(name, raw, notes)
         given[name] = key.read(raw)
@@ -256,7 +318,7 @@ def _annotated(name: str, raw: Mapping[str, Any], notes: list[Note]) -> Any:
     if "value" not in raw or len(status) != 1 or len(raw) != 2 or not isinstance(raw[status[0]], str):
         raise SpecError(
             f'{name} must be a value or {{ value = ..., assumed = "reason" }} (or calibrated = "reason"); '
-            f"got the keys {', '.join(raw) or 'none'}."
+            f"got {shown(raw)}."
         )
     notes.append(Note(name, status[0], raw[status[0]]))
     return raw["value"]
@@ -304,26 +366,27 @@ def _check_window(spec: Spec) -> None:
 def _known(kind: Kind, name: str) -> Key:
     key = kind.key(name)
     if key is None:
-        raise SpecError(
-            f"{name} is not a key of this specification{_suggestion(name, {k.name: k for k in kind.keys})}."
-        )
+        raise SpecError(f"{name} is not a key of this specification{_suggestion(name, [k.name for k in kind.keys])}.")
     return key
 
 
-def _suggestion(name: str, known: Mapping[str, Key]) -> str:
+def _suggestion(name: str, known: Iterable[str]) -> str:
     """A hint at the nearest key; difflib is imported only on this path, for the sake of start-up."""
     import difflib
 
-    near = difflib.get_close_matches(name, known, n=1, cutoff=0.6)
-    if not near:
-        leaf = name.rpartition(".")[2]
-        near = [key for key in known if key.endswith("." + leaf)][:1]
-    return f"; did you mean {near[0]}?" if near else ""
+    if len(name) > 100:  # difflib takes its time
+        return ""
+    known = list(dict.fromkeys(known))
+    leaf = name.rpartition(".")[2]
+    near = [key for key in known if key.endswith("." + leaf)] or difflib.get_close_matches(name, known, n=1, cutoff=0.7)
+    return f" (did you mean {near[0]}?)" if near else ""
 
 
 def _override(raw: dict[str, Any], key: str, text: str, kind: Kind) -> None:
     """Put ``text`` at the dotted ``key`` of the raw tree; list items go by their number, from 0."""
     *path, leaf = key.split(".")
+    if not all(key.split(".")):
+        raise SpecError(f"--set needs a dotted key, such as actuator.mover.ring_width; got {shown(key)}.")
     table: Any = raw
     for step in path:
         if isinstance(table, list):
@@ -335,8 +398,13 @@ def _override(raw: dict[str, Any], key: str, text: str, kind: Kind) -> None:
     known = kind.key(key)
     if isinstance(table, list):
         _item(table, leaf, key)
-        table[int(leaf)] = _literal(text)
+        if text == "":
+            del table[int(leaf)]
+        else:
+            table[int(leaf)] = _literal(text)
     elif text == "":
+        if leaf not in table and known is None:
+            raise SpecError(f"{key} cannot be dropped: the specification does not hold it.")
         table.pop(leaf, None)
     elif known is not None and known.kind == "word":
         table[leaf] = text.strip("\"'")
@@ -345,14 +413,15 @@ def _override(raw: dict[str, Any], key: str, text: str, kind: Kind) -> None:
 
 
 def _item(table: list[Any], step: str, key: str) -> Any:
-    if not step.isdigit() or int(step) >= len(table):
-        raise SpecError(f"{key}: {step} must be an item's number from 0 to {len(table) - 1}; got {step}.")
+    if not (step.isascii() and step.isdigit() and len(step) < 10 and int(step) < len(table)):
+        raise SpecError(f"{key} must number an item of a list of {len(table)}, counted from 0; got {shown(step)}.")
     return table[int(step)]
 
 
 def _literal(text: str) -> Any:
     """A TOML value where the text is one (4, 1.05, [..]), else the text itself (27 mm)."""
     try:
-        return tomllib.loads(f"value = {text}")["value"]
-    except (tomllib.TOMLDecodeError, RecursionError):
+        tree = tomllib.loads(f"value = {text}")
+    except (ValueError, RecursionError):
         return text
+    return tree["value"] if len(tree) == 1 and "\n" not in text else text

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from fluxbore.design.errors import SpecError
+from fluxbore.design.errors import SpecError, shown
 from fluxbore.design.keys import Key, toml_string
 from fluxbore.design.performance import FIGURES
 from fluxbore.design.spec import Spec
@@ -24,7 +24,7 @@ def template_names() -> tuple[str, ...]:
 def template(name: str) -> str:
     """A commented specification to start from. Raises SpecError where there is none of that name."""
     if name not in template_names():
-        raise SpecError(f'There is a template for {", ".join(template_names())}; got "{name}".')
+        raise SpecError(f"There is a template for {', '.join(template_names())}; got {shown(name)}.")
     return (_TEMPLATES / f"{name}.toml").read_text(encoding="utf-8")
 
 
@@ -78,7 +78,7 @@ def _study_lines(study: Study, keys: Mapping[str, Key]) -> list[str]:
         lines += ["", "[[study.variables]]", f'key = "{key.name}"']
         lines += [f"lower = {key.write(variable.lower)}", f"upper = {key.write(variable.upper)}"]
         if variable.resolution is not None:
-            lines.append(f"resolution = {key.write(variable.resolution)}")
+            lines.append(f"resolution = {key.difference.write(variable.resolution)}")
     for constraint in study.constraints:
         lines += _constraint_lines(constraint, keys)
     for sweep in study.sweeps:
@@ -105,7 +105,9 @@ def _constraint_lines(constraint: Constraint, keys: Mapping[str, Key]) -> list[s
         lines = ["", "[[study.constraints]]", f'key = "{constraint.subject}"']
     for bound, value in (("upper", constraint.upper), ("lower", constraint.lower)):
         if value is not None:
-            lines.append(f"{bound} = " + (f'"{value!r} x start"' if constraint.relative_to_start else _limit(key, value)))
+            lines.append(
+                f"{bound} = " + (f'"{value!r} x start"' if constraint.relative_to_start else _limit(key, value))
+            )
     return lines
 
 

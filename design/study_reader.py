@@ -7,7 +7,7 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from fluxbore.design.errors import SpecError
+from fluxbore.design.errors import SpecError, shown
 from fluxbore.design.keys import Alternatives, Key, Values
 from fluxbore.design.performance import FIGURES
 from fluxbore.design.study import ALGORITHMS, Axis, Constraint, Objective, Search, Study, Sweep, Variable
@@ -15,6 +15,9 @@ from fluxbore.design.units import DIMENSIONS
 
 LARGEST_GRID = 1_000_000
 """Designs in one sweep; a slip in ``step`` asks for more than this."""
+
+_SIGNED = ("pneumatic_force_advance", "pneumatic_force_retract")
+"""The figures that can be negative: under a vacuum the air pulls."""
 
 _FACTOR = re.compile(r"^(?:([0-9.eE+-]+)\s*x\s*)?start$")
 
@@ -38,11 +41,15 @@ def read_study(
         _constraint(item, f"study.constraints.{i}", known) for i, item in enumerate(_items(raw, "constraints"))
     )
     _check_constraints(constraints, variables, known)
+    sweeps = tuple(_sweep(item, f"study.sweeps.{i}", known) for i, item in enumerate(_items(raw, "sweeps")))
+    for i, sweep in enumerate(sweeps):
+        if sweep.name in (other.name for other in sweeps[:i]):
+            raise SpecError(f"study.sweeps.{i}.name must differ from the other sweeps' names; got {shown(sweep.name)}.")
     return Study(
         objective=_objective(raw.get("objective")),
         variables=variables,
         constraints=constraints,
-        sweeps=tuple(_sweep(item, f"study.sweeps.{i}", known) for i, item in enumerate(_items(raw, "sweeps"))),
+        sweeps=sweeps,
         hold=_hold(raw.get("hold", []), alternatives, variables),
         search=_search(raw.get("search", {})),
     )
@@ -51,13 +58,13 @@ def read_study(
 def _items(raw: Mapping[str, Any], name: str) -> list[dict[str, Any]]:
     items = raw.get(name, [])
     if not isinstance(items, list) or not all(isinstance(item, dict) for item in items):
-        raise SpecError(f"study.{name} must be a list of tables, each headed [[study.{name}]]; got {items!r}.")
+        raise SpecError(f"study.{name} must be a list of tables, each headed [[study.{name}]]; got {shown(items)}.")
     return items
 
 
 def _allow(raw: object, where: str, allowed: Sequence[str]) -> None:
     if not isinstance(raw, Mapping):
-        raise SpecError(f"{where} must be a section of keys; got {raw!r}.")
+        raise SpecError(f"{where} must be a section of keys; got {shown(raw)}.")
     for key in raw:
         if key not in allowed:
             raise SpecError(f"{where}.{key} is not a key of this specification; {where} has {', '.join(allowed)}.")
@@ -67,19 +74,26 @@ def _objective(raw: object) -> Objective | None:
     if raw is None:
         return None
     words = raw.split() if isinstance(raw, str) else []
-    if len(words) != 2 or words[0] not in ("maximise", "minimise") or words[1] not in FIGURES:
+    if len(words) != 2 or words[0] not in ("maximise", "minimise"):
         raise SpecError(
-            f'study.objective must be "maximise FIGURE" or "minimise FIGURE" with FIGURE one of '
-            f"{', '.join(FIGURES)}; got {raw!r}."
+            'study.objective must be "maximise FIGURE" or "minimise FIGURE", such as "maximise force_constant"; '
+            f"got {shown(raw)}."
         )
+    _figure(words[1], "study.objective")
     return Objective(words[1], words[0] == "maximise")
+
+
+def _figure(name: object, where: str) -> str:
+    if not isinstance(name, str) or name not in FIGURES:
+        raise SpecError(f"{where} must name a figure, one of {', '.join(FIGURES)}; got {shown(name)}.")
+    return name
 
 
 def _numeric_key(raw: Mapping[str, Any], where: str, known: Mapping[str, Key], *, integers: bool) -> Key:
     name = raw.get("key")
     key = known.get(name) if isinstance(name, str) else None
     if key is None:
-        raise SpecError(f"{where}.key must be a dotted key of this specification; got {name!r}.")
+        raise SpecError(f"{where}.key must be a dotted key of this specification; got {shown(name)}.")
     if key.kind == "word" or (key.kind == "integer" and not integers) or key.section == "solver":
         kinds = "a dimension, a number or a count" if integers else "a continuous quantity"
         raise SpecError(f"{where}.key must name {kinds}; got {key.name}, which is {_kind_word(key)}.")
@@ -93,7 +107,7 @@ def _kind_word(key: Key) -> str:
 
 
 def _value(raw: object, key: Key, where: str) -> float:
-    """A number of ``key``'s dimension that stands at ``where`` in the file."""
+    """A number of ``key``'s dimension that stands at ``where`` in the file; the key's limits do not apply."""
     value = Key(where, key.doc, key.kind, key.dimension).read(raw)
     return float(value)
 
@@ -103,26 +117,34 @@ def _variable(raw: Mapping[str, Any], where: str, known: Mapping[str, Key], valu
     key = _numeric_key(raw, where, known, integers=False)
     for bound in ("lower", "upper"):
         if bound not in raw:
-            raise SpecError(f"{where}.{bound} is missing: the variable {key.name} needs both a lower and an upper bound.")
+            raise SpecError(
+                f"{where}.{bound} is missing: the variable {key.name} needs both a lower and an upper bound."
+            )
     lower, upper = (_value(raw[bound], key, f"{where}.{bound}") for bound in ("lower", "upper"))
     if not lower < upper:
         raise SpecError(f"{where}.upper must exceed {where}.lower {key.show(lower)}; got {key.show(upper)}.")
     for bound, number in (("lower", lower), ("upper", upper)):
-        try:
-            key.check(number)
-        except SpecError as error:
-            raise SpecError(f"{where}.{bound}: {error}") from error
+        _check_at(key, number, f"{where}.{bound}")
     resolution = None
     if "resolution" in raw:
-        resolution = _value(raw["resolution"], key, f"{where}.resolution")
+        step = key.difference
+        resolution = _value(raw["resolution"], step, f"{where}.resolution")
         if not 0 < resolution <= upper - lower:
             raise SpecError(
-                f"{where}.resolution must be above zero and at most the range {key.show(upper - lower)}; "
-                f"got {key.show(resolution)}."
+                f"{where}.resolution must be above zero and at most the range {step.show(upper - lower)}; "
+                f"got {step.show(resolution)}."
             )
     if key.name not in values:
         raise SpecError(f"{where}.key must have a start value in the specification; {key.name} has none.")
     return Variable(key.name, lower, upper, resolution)
+
+
+def _check_at(key: Key, value: float, where: str) -> None:
+    """Hold a value of the study against its key's own limits."""
+    try:
+        key.check(value)
+    except SpecError as error:
+        raise SpecError(f"{where}: {error}") from error
 
 
 def _constraint(raw: Mapping[str, Any], where: str, known: Mapping[str, Key]) -> Constraint:
@@ -130,9 +152,7 @@ def _constraint(raw: Mapping[str, Any], where: str, known: Mapping[str, Key]) ->
     if ("figure" in raw) == ("key" in raw):
         raise SpecError(f"{where} must hold exactly one of figure and key; got {', '.join(raw) or 'none'}.")
     if "figure" in raw:
-        name = raw["figure"]
-        if name not in FIGURES:
-            raise SpecError(f"{where}.figure must be one of {', '.join(FIGURES)}; got {name!r}.")
+        name = _figure(raw["figure"], f"{where}.figure")
         dimension = FIGURES[name].dimension
         key = Key(name, "", "quantity" if dimension in DIMENSIONS else "number", dimension)
     else:
@@ -154,7 +174,12 @@ def _constraint(raw: Mapping[str, Any], where: str, known: Mapping[str, Key]) ->
         raise SpecError(f'{where}: upper and lower must both be quantities or both be relative to "start".')
     lower, upper = limits["lower"], limits["upper"]
     if lower is not None and upper is not None and lower > upper:
-        raise SpecError(f"{where} cannot be met: {key.name} would have to be at least {lower:g} and at most {upper:g}.")
+        show = (lambda limit: f"{limit:g} x start") if relative[0] else _loose(key).show
+        raise SpecError(
+            f"{where} cannot be met: {key.name} would have to be at least {show(lower)} and at most {show(upper)}."
+        )
+    if upper is not None and upper < 0 and key.name in FIGURES and key.name not in _SIGNED:
+        raise SpecError(f"{where}.upper must be at least zero, for {key.name} always is; got {key.show(upper)}.")
     return Constraint(key.name, upper, lower, relative[0])
 
 
@@ -191,7 +216,8 @@ def _check_constraints(
         show = known[subject].show if subject in known else (lambda value, digits=6: f"{value:.{digits}g}")
         if low > high:
             raise SpecError(
-                f"study.constraints cannot be met: {subject} would have to be at least {show(low)} and at most {show(high)}."
+                f"study.constraints cannot be met: {subject} would have to be at least {show(low)} "
+                f"and at most {show(high)}."
             )
         for variable in variables:
             if variable.key == subject and (low > variable.upper or high < variable.lower):
@@ -206,7 +232,7 @@ def _sweep(raw: Mapping[str, Any], where: str, known: Mapping[str, Key]) -> Swee
     _allow(raw, where, ("name", "axes", "published_optimum", "source"))
     axes_raw = raw.get("axes")
     if not isinstance(axes_raw, list) or not axes_raw:
-        raise SpecError(f"{where}.axes must be a list of at least one table; got {axes_raw!r}.")
+        raise SpecError(f"{where}.axes must be a list of at least one table; got {shown(axes_raw)}.")
     axes = tuple(_axis(item, f"{where}.axes.{i}", known) for i, item in enumerate(axes_raw))
     names = [axis.key for axis in axes]
     if len(set(names)) < len(names):
@@ -216,7 +242,11 @@ def _sweep(raw: Mapping[str, Any], where: str, known: Mapping[str, Key]) -> Swee
         if len(axes) != 1:
             raise SpecError(f"{where}.published_optimum needs exactly one axis; got {len(axes)}.")
         reference = _value(raw["published_optimum"], _loose(known[names[0]]), f"{where}.published_optimum")
-    sweep = Sweep(str(raw.get("name", " x ".join(names))), axes, reference, str(raw.get("source", "")))
+    name, source = (
+        str(Key(f"{where}.{word}", "", "word").read(raw[word])) if word in raw else default
+        for word, default in (("name", " x ".join(names)), ("source", ""))
+    )
+    sweep = Sweep(name, axes, reference, source)
     if sweep.size > LARGEST_GRID:
         raise SpecError(f"{where} must have at most {LARGEST_GRID} designs; got {sweep.size}.")
     return sweep
@@ -227,21 +257,33 @@ def _axis(raw: object, where: str, known: Mapping[str, Key]) -> Axis:
     assert isinstance(raw, Mapping)
     key = _numeric_key(raw, where, known, integers=True)
     if "values" in raw:
-        if len(raw) != 2 or not isinstance(raw["values"], list) or not raw["values"]:
-            raise SpecError(f"{where} must hold key with values = [...], or with from, to and step; got {', '.join(raw)}.")
-        return Axis(key.name, tuple(_value(item, key, f"{where}.values.{i}") for i, item in enumerate(raw["values"])))
+        if len(raw) != 2:
+            raise SpecError(
+                f"{where} must hold key with values = [...], or with from, to and step; got {', '.join(raw)}."
+            )
+        items = raw["values"]
+        if not isinstance(items, list) or not items:
+            raise SpecError(f"{where}.values must be a list of at least one value; got {shown(items)}.")
+        values = tuple(_value(item, key, f"{where}.values.{i}") for i, item in enumerate(items))
+        for i, value in enumerate(values):
+            _check_at(key, value, f"{where}.values.{i}")
+        return Axis(key.name, values)
     for name in ("from", "to", "step"):
         if name not in raw:
             raise SpecError(f"{where}.{name} is missing: an axis needs from, to and step, or values.")
-    first, last, step = (_value(raw[name], key, f"{where}.{name}") for name in ("from", "to", "step"))
+    first, last = (_value(raw[name], key, f"{where}.{name}") for name in ("from", "to"))
+    for name, value in (("from", first), ("to", last)):
+        _check_at(key, value, f"{where}.{name}")
+    step = _value(raw["step"], key.difference, f"{where}.step")
+    got = key.difference.show(step)
     if step == 0 or (last - first) / step < 0:
-        raise SpecError(f"{where}.step must lead from {key.show(first)} to {key.show(last)}; got {key.show(step)}.")
+        raise SpecError(f"{where}.step must lead from {key.show(first)} to {key.show(last)}; got {got}.")
     intervals = (last - first) / step
     if intervals > LARGEST_GRID:
         raise SpecError(f"{where} must have at most {LARGEST_GRID} points; got {intervals:.3g}.")
     if abs(intervals - round(intervals)) > 1e-6:
         raise SpecError(
-            f"{where}.step must divide the range from {key.show(first)} to {key.show(last)} evenly; got {key.show(step)}."
+            f"{where}.step must divide the range from {key.show(first)} to {key.show(last)} evenly; got {got}."
         )
     # Rounded to 12 digits so that 0.0005 * 3 is the 0.0015 that a person would type.
     return Axis(key.name, tuple(float(f"{first + step * i:.12g}") for i in range(round(intervals) + 1)))
@@ -250,11 +292,11 @@ def _axis(raw: object, where: str, known: Mapping[str, Key]) -> Axis:
 def _hold(raw: object, alternatives: Sequence[Alternatives], variables: Sequence[Variable]) -> tuple[str, ...]:
     eligible = [key for group in alternatives for key in group.keys]
     if not isinstance(raw, list) or not all(isinstance(item, str) for item in raw):
-        raise SpecError(f"study.hold must be a list of dotted keys in quotes; got {raw!r}.")
+        raise SpecError(f"study.hold must be a list of dotted keys in quotes; got {shown(raw)}.")
     for i, name in enumerate(raw):
         if name not in eligible:
             raise SpecError(
-                f"study.hold.{i} must be a key that has alternatives, one of {', '.join(eligible)}; got {name!r}."
+                f"study.hold.{i} must be a key that has alternatives, one of {', '.join(eligible)}; got {shown(name)}."
             )
         if any(variable.key == name for variable in variables):
             raise SpecError(f"study.hold.{i} must not be a variable of the study as well; got {name}.")

@@ -12,7 +12,7 @@ import re
 from dataclasses import dataclass
 from decimal import Decimal
 
-from fluxbore.design.errors import SpecError
+from fluxbore.design.errors import SpecError, shown
 
 STANDARD_ATMOSPHERE = 101_325.0
 """Pa, the difference between absolute and gauge pressure (ISO 2533, sea level)."""
@@ -53,6 +53,12 @@ def _pressures() -> dict[str, Unit]:
     return gauge | absolute
 
 
+def _pressure_differences() -> dict[str, Unit]:
+    """A step of pressure is the same on both scales."""
+    plain = {name.removesuffix(" gauge"): unit for name, unit in _pressures().items() if name.endswith(" gauge")}
+    return plain | {name: Unit(unit.factor) for name, unit in _pressures().items()}
+
+
 DIMENSIONS: dict[str, Dimension] = {
     dimension.name: dimension
     for dimension in (
@@ -62,6 +68,7 @@ DIMENSIONS: dict[str, Dimension] = {
         Dimension("flux density", "T", "T", _scaled(T=1.0, mT=1e-3, uT=1e-6) | {"G": Unit(1e-4)}),
         Dimension("current", "A", "A", _scaled(A=1.0, mA=1e-3)),
         Dimension("pressure", "Pa gauge", "MPa gauge", _pressures()),
+        Dimension("pressure difference", "Pa", "MPa", _pressure_differences()),
         Dimension("stress", "Pa", "MPa", _scaled(Pa=1.0, kPa=1e3, MPa=1e6, GPa=1e9)),
         Dimension(
             "temperature",
@@ -73,6 +80,7 @@ DIMENSIONS: dict[str, Dimension] = {
                 "degF": Unit(5.0 / 9.0, ZERO_CELSIUS - 32.0 * 5.0 / 9.0),
             },
         ),
+        Dimension("temperature difference", "K", "K", {"K": Unit(1.0), "degC": Unit(1.0), "degF": Unit(5.0 / 9.0)}),
         Dimension("force", "N", "N", _scaled(N=1.0, kN=1e3, mN=1e-3)),
         Dimension("force constant", "N/A", "N/A", {"N/A": Unit(1.0)}),
         Dimension("motor constant", "N/sqrt(W)", "N/sqrt(W)", {"N/sqrt(W)": Unit(1.0)}),
@@ -99,7 +107,14 @@ DIMENSIONS: dict[str, Dimension] = {
 }
 """Every dimension a specification can hold, by name; their unit tables are all the units there are."""
 
-_NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?")
+DIFFERENCES = {"temperature": "temperature difference", "pressure": "pressure difference"}
+"""The dimensions whose units have an offset, and the dimension of a difference between two such values."""
+
+_SPACE = "[ \t\N{NO-BREAK SPACE}]"
+"""What may stand around number and unit. Closed like the table of units, so that the JSON Schema means the same."""
+
+_PLAIN_NUMBER = r"[+-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?"
+_NUMBER = re.compile(_PLAIN_NUMBER)
 
 
 def parse_quantity(text: object, dimension: str, key: str) -> float:
@@ -111,26 +126,31 @@ def parse_quantity(text: object, dimension: str, key: str) -> float:
     Raises SpecError with the key, the units that would do, and what was found.
     """
     table = DIMENSIONS[dimension]
-    wanted = f"one number and one unit of {_listing(table)}, such as {example(dimension)}"
+    wanted = f"{with_article(dimension)}, one number and one unit of {_listing(table)}, such as {example(dimension)}"
     if not isinstance(text, str):
-        found = f"the bare number {text!r}" if _is_number(text) else f"{text!r}"
-        raise SpecError(f"{key} must be a {dimension}, {wanted}; got {found}.")
-    match = _NUMBER.match(text.strip())
+        found = f"the bare number {shown(text)}" if _is_number(text) else shown(text)
+        raise SpecError(f"{key} must be {wanted}; got {found}.")
+    bare = re.sub(f"{_SPACE}+", " ", text).strip(" ")
+    match = _NUMBER.match(bare)
     if match is None:
-        raise SpecError(f'{key} must be a {dimension}, {wanted}; got "{text}".')
-    unit = " ".join(text.strip()[match.end() :].split())
+        raise SpecError(f"{key} must be {wanted}; got {shown(text)}.")
+    unit = bare[match.end() :].lstrip(" ")
     if unit not in table.units:
-        missing = "without a unit" if not unit else f'with the unit "{unit}"'
+        missing = "without a unit" if not unit else f"with the unit {shown(unit)}"
         hint = ""
+        if unit.startswith(","):
+            missing, hint = "with a comma", " (the decimal sign is a point)"
         if dimension == "pressure" and f"{unit} gauge" in table.units:
             hint = f' (say "{unit} gauge" or "{unit} absolute")'
-        raise SpecError(f'{key} must be a {dimension}, {wanted}; got "{text}" {missing}{hint}.')
+        raise SpecError(f"{key} must be {wanted}; got {shown(text)} {missing}{hint}.")
     scale = table.units[unit]
     # Decimal keeps "0.1 mm" at the float nearest to 1e-4: 0.1 * 1e-3 is one rounding away from it.
-    number = Decimal(match.group())
-    value = float(number * Decimal(repr(scale.factor))) + scale.offset
+    try:
+        value = float(Decimal(match.group()) * Decimal(repr(scale.factor))) + scale.offset
+    except ArithmeticError:  # an exponent beyond what even decimals hold
+        value = math.inf
     if not math.isfinite(value):
-        raise SpecError(f'{key} must be a finite {dimension}; got "{text}".')
+        raise SpecError(f"{key} must be a finite {dimension}; got {shown(text)}.")
     return value
 
 
@@ -152,14 +172,19 @@ def in_preferred_unit(value: float, dimension: str) -> float:
 
 def quantity_pattern(dimension: str) -> str:
     """The regular expression (ECMA 262) that a JSON Schema uses for this dimension."""
-    units = "|".join(re.escape(unit).replace("\\ ", " +") for unit in DIMENSIONS[dimension].units)
-    return rf"^\s*[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?\s*({units})\s*$"
+    units = "|".join(re.escape(unit).replace("\\ ", f"{_SPACE}+") for unit in DIMENSIONS[dimension].units)
+    return f"^{_SPACE}*{_PLAIN_NUMBER}{_SPACE}*({units}){_SPACE}*$"
 
 
 def example(dimension: str) -> str:
     """A quantity of this dimension as one would type it."""
     numbers = {"length": "27", "pressure": "0.6", "temperature": "20", "flux density": "1.4", "angle": "30"}
     return f'"{numbers.get(dimension, "1")} {DIMENSIONS[dimension].preferred}"'
+
+
+def with_article(dimension: str) -> str:
+    """ "a length", "an area density"."""
+    return f"{'an' if dimension[0] in 'aeiou' else 'a'} {dimension}"
 
 
 def _listing(table: Dimension) -> str:

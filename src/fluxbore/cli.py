@@ -10,11 +10,12 @@ import argparse
 import os
 import sys
 from collections.abc import Callable, Sequence
+from io import TextIOWrapper
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from fluxbore import __version__
-from fluxbore.design.errors import FluxboreError, SpecError
+from fluxbore.design.errors import FluxboreError, SpecError, one_line, shown
 
 if TYPE_CHECKING:
     from fluxbore.design.spec import Spec
@@ -28,14 +29,21 @@ def main(argv: Sequence[str] | None = None) -> int:
     # One BLAS thread a process: the workers are the parallelism, and matrices here are too narrow to share.
     for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
         os.environ.setdefault(name, "1")
+    for stream in (sys.stdout, sys.stderr):
+        # Names may hold letters that the terminal's encoding lacks; an escape is better than a traceback.
+        if isinstance(stream, TextIOWrapper):
+            stream.reconfigure(errors="backslashreplace")
     try:
         options = _parser().parse_args(arguments)
         options.arguments = arguments
         command: Callable[[argparse.Namespace], int] = options.command
-        return command(options)
+        status = command(options)
+        sys.stdout.flush()
+        return status
     except FluxboreError as error:
-        print(f"fluxbore: {error}", file=sys.stderr)
-        return INPUT_WRONG
+        return _refuse(str(error))
+    except SystemExit as stop:  # argparse: --help, --version and what it cannot read
+        return stop.code if isinstance(stop.code, int) else INPUT_WRONG
     except KeyboardInterrupt:
         print("fluxbore: interrupted; the same command goes on where it was.", file=sys.stderr)
         return INTERRUPTED
@@ -43,14 +51,21 @@ def main(argv: Sequence[str] | None = None) -> int:
         # Whoever read our output has seen enough; keep Python from complaining while it flushes at exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return DONE
+    except OSError as error:
+        where = f"{error.filename} " if error.filename else ""
+        return _refuse(f"{where}cannot be read or written: {error.strerror or error}.")
+
+
+def _refuse(sentence: str) -> int:
+    print(f"fluxbore: {one_line(sentence)}", file=sys.stderr)
+    return INPUT_WRONG
 
 
 class _Parser(argparse.ArgumentParser):
     """Says what is wrong in one sentence, like every other error."""
 
     def error(self, message: str) -> NoReturn:
-        print(f"fluxbore: {message}; see {self.prog} --help.", file=sys.stderr)
-        raise SystemExit(INPUT_WRONG)
+        raise SystemExit(_refuse(f"{message}; see {self.prog} --help."))
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -126,14 +141,18 @@ def _positive(text: str) -> int:
 
 def _load(options: argparse.Namespace) -> Spec:
     from fluxbore.design.spec import load
+    from fluxbore.geometry.hybrid_parts import assembly
 
     overrides = {}
     for item in options.set:
         key, equals, value = item.partition("=")
         if not equals or not key.strip():
-            raise SpecError(f'--set must be KEY=VALUE, such as actuator.mover.ring_width="2 mm"; got "{item}".')
+            raise SpecError(f'--set must be KEY=VALUE, such as actuator.mover.ring_width="2 mm"; got {shown(item)}.')
         overrides[key.strip()] = value.strip()
-    return load(options.spec, overrides)
+    spec = load(options.spec, overrides)
+    # Parts that overlap in the drawing alone are wrong input too; a study's designs are judged one by one instead.
+    assembly(spec.actuator, spec.actuator.mid_stroke)
+    return spec
 
 
 def _new(options: argparse.Namespace) -> int:
