@@ -1,0 +1,189 @@
+"""Writes the report: one HTML file that needs nothing but itself."""
+
+from __future__ import annotations
+
+import base64
+import re
+from collections.abc import Mapping
+from html import escape
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from fluxbore.design.errors import FluxboreError
+from fluxbore.reports import curves, flux_picture, section_drawing, story, study_tables, tables
+from fluxbore.reports.content import ReportContent
+from fluxbore.reports.svg import Drawing
+from fluxbore.reports.wording import capital, duration, key_label, symbol
+
+if TYPE_CHECKING:
+    from markupsafe import Markup
+
+POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'"
+"""The page may load nothing and run nothing; pictures are part of it."""
+
+_HERE = Path(__file__).parent
+
+
+def write_report(content: ReportContent, path: Path) -> Path:
+    """Write the report to ``path`` and return it; an older report stays until the new one is whole.
+
+    Raises FluxboreError where the file cannot be written.
+    """
+    text = render(content)
+    beside = path.with_name(f".{path.name}.part")
+    try:
+        beside.write_text(text, encoding="utf-8", newline="\n")
+        beside.replace(path)
+    except OSError as error:
+        beside.unlink(missing_ok=True)
+        raise FluxboreError(f"{path} cannot be written: {error.strerror or error}.") from error
+    return path
+
+
+def render(content: ReportContent) -> str:
+    """The page as text."""
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined
+    from markupsafe import Markup
+
+    environment = Environment(
+        loader=FileSystemLoader(_HERE / "templates"),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        # "{#" opens a rule for an identifier in CSS.
+        comment_start_string="{##",
+        comment_end_string="##}",
+    )
+    environment.filters["symbol"] = _symbol
+    environment.filters["svg"] = lambda item: Markup(item.markup)
+    css = (_HERE / "assets" / "report.css").read_text(encoding="utf-8")
+    return environment.get_template("report.html").render(policy=POLICY, css=Markup(css), **_context(content))
+
+
+def _context(content: ReportContent) -> Mapping[str, Any]:
+    """Everything the template shows, section by section."""
+    spec, design = content.spec, content.design
+    sound = design if design is not None and design.ok else None
+    head, variables = study_tables.variables(content)
+    picture, drawn = _picture(content)
+    objective = spec.study.objective
+    search = content.search
+    return {
+        "title": story.title(content),
+        "is_study": content.is_study,
+        "asked": story.asked(spec),
+        "reached": story.reached(content),
+        "tiles": study_tables.tiles(content),
+        "requirements": study_tables.requirements(content),
+        "picture": picture,
+        "picture_reason": content.picture.reason if content.picture is not None and picture is None else "",
+        "section": drawn,
+        "variable_head": head,
+        "variables": variables,
+        "candidates": study_tables.candidates(content),
+        "gain": story.gain(content),
+        "active": story.active(content),
+        "sweeps": _sweeps(content),
+        "search": search,
+        "search_figures": _present(
+            curves.convergence_curve(spec, search, objective) if search and objective else None,
+            curves.search_path(spec, search, content.one_at_a_time) if search else None,
+        ),
+        "history": study_tables.history(content, search, objective) if search and objective else None,
+        "search_time": duration(search.seconds) if search else "",
+        "field": _field(content),
+        "force_figures": _present(*_force(content)) if sound else (),
+        "force_text": [text for text in (story.routes(sound), story.ripple(sound)) if text] if sound else [],
+        "positions": tables.positions(sound) if sound else None,
+        "comparison": tables.comparison(content),
+        "upper_bound": story.UPPER_BOUND if content.design_network is not None else "",
+        "slots": curves.slot_curve(content.slots) if content.slots is not None else None,
+        "slots_note": content.slots.note if content.slots is not None else "",
+        "parts": tables.parts(content.parts),
+        "seen": story.seen(content),
+        "checked": content.checked,
+        "not_checked": content.not_checked,
+        "notes": [
+            {"key": note.key, "label": capital(key_label(spec, note.key)), "status": note.status, "reason": note.reason}
+            for note in sorted(spec.notes, key=lambda note: note.status)
+        ],
+        "provenance": content.provenance,
+        "details": tables.details((("FEM", design), ("Network", content.design_network))),
+        "seconds": duration(content.seconds) if content.seconds is not None else "",
+        "symbols": _symbols(content),
+    }
+
+
+def _picture(content: ReportContent) -> tuple[str | None, Drawing | None]:
+    """The picture as a data address, and the section drawing."""
+    png = content.picture.png if content.picture is not None else None
+    drawn = None
+    if content.assembly is not None and content.assembly.parts:
+        drawn = section_drawing.section(content.assembly, width=1000.0 if png else 640.0)
+    return (f"data:image/png;base64,{base64.b64encode(png).decode()}" if png else None), drawn
+
+
+def _sweeps(content: ReportContent) -> list[dict[str, Any]]:
+    objective = content.spec.study.objective
+    figure, maximise = (objective.figure, objective.maximise) if objective else ("force_constant", True)
+    return [
+        {
+            "name": result.sweep.name,
+            "figure": curves.sweep_curve(content.spec, result, f"sweep-{i}", figure, maximise),
+            "finding": story.sweep_finding(content.spec, result, figure, maximise),
+            "failed": tables.failed_rows(content, result),
+        }
+        for i, result in enumerate(content.sweeps)
+    ]
+
+
+def _field(content: ReportContent) -> dict[str, Any] | None:
+    """The machine as a strip and two pole pitches from near, the start's beside the chosen design's."""
+    chosen, start = content.flux_map, content.start_flux_map
+    main = chosen or start
+    if main is None:
+        return None
+    limit = flux_picture.colour_limit(chosen, start)
+    near = []
+    if start is not None and (chosen is None or content.is_study):
+        near.append(flux_picture.close_up(start, content.spec, limit, "flux-start", "Start"))
+    if chosen is not None:
+        title = "Chosen" if content.is_study else "Design"
+        near.append(flux_picture.close_up(chosen, content.design_spec, limit, "flux-chosen", title))
+    return {"strip": flux_picture.machine_strip(main, limit), "near": near}
+
+
+def _force(content: ReportContent) -> tuple[Drawing | None, ...]:
+    design = content.design
+    assert design is not None
+    start = content.start if content.is_study and content.start is not None and content.start.ok else None
+    return curves.force_curve(design, start), curves.phase_curve(design), curves.cogging_curve(design, start)
+
+
+def _symbols(content: ReportContent) -> list[tuple[str, str]]:
+    """Every symbol of the specification that this report's texts or tables can show, and those of the field."""
+    spec = content.spec
+    own = {symbol(spec, key.name): key.doc for key in spec.kind.keys if key.name in spec.values}
+    plain = [(sign, doc) for sign, doc in own.items() if sign not in ("", "z") and not re.search(r"[(/]", sign)]
+    field = [
+        (
+            "z",
+            "position: from the mid-plane of the first U coil at the cap end to the cap-side face of the magnet array",
+        ),
+        ("|B|", "magnitude of the flux density"),
+        ("ψ", "flux function r·A; its level lines are field lines"),
+        ("g_ac", "radial gap between magnets and winding"),
+    ]
+    return [*field, *plain]
+
+
+def _present(*drawings: Drawing | None) -> tuple[Drawing, ...]:
+    return tuple(item for item in drawings if item is not None)
+
+
+def _symbol(text: str) -> Markup:
+    """``τ_f`` with a real subscript."""
+    from markupsafe import Markup
+
+    return Markup(re.sub(r"_(\w+)", r"<sub>\1</sub>", escape(text)))

@@ -1,0 +1,230 @@
+"""The sentences of a report: what was asked, what was reached, and what follows from the figures."""
+
+from __future__ import annotations
+
+from fluxbore.design.spec import Spec
+from fluxbore.design.study import Constraint, Variable
+from fluxbore.optimize.evaluation import Evaluation
+from fluxbore.optimize.outcome import SweepResult
+from fluxbore.reports.content import ReportContent
+from fluxbore.reports.tables import Cell
+from fluxbore.reports.wording import (
+    change,
+    figure_label,
+    figure_scale,
+    key_label,
+    key_range,
+    key_scale,
+    listing,
+    subject_label,
+    subject_scale,
+)
+
+UPPER_BOUND = (
+    "The force constant of the network is equation (2) of Nakata and Noda (2023), an upper bound. It takes the iron as "
+    "infinitely permeable, so that no ring or yoke saturates; it lets the whole flux of a pole cross the gap radially, "
+    "as a flat block of width τ_f + 2 g_ac, where in truth it leaks from magnet to magnet, and more so in the wide gap "
+    "of a slotless winding; and it puts the winding as a sinusoidal current sheet on its inner diameter, where the "
+    "field is strongest. Finite elements assume none of these."
+)
+"""Why the network exceeds the finite elements."""
+
+
+def asked(spec: Spec) -> tuple[str, ...]:
+    """The requirement in words, one sentence each; a study without an objective asks for less."""
+    study, sentences = spec.study, []
+    if study.objective is not None:
+        verb = "Maximise" if study.objective.maximise else "Minimise"
+        goal = f"{verb} the {figure_label(study.objective.figure)}"
+        by = listing(_range(spec, variable) for variable in study.variables)
+        sentences.append(f"{goal} by moving {by}." if by else f"{goal}.")
+    if study.constraints:
+        sentences.append(f"Keep {listing(_limit(spec, item) for item in study.constraints)}.")
+    if study.hold:
+        sentences.append(f"Hold {listing(f'the {key_label(spec, key)}' for key in study.hold)}.")
+    if study.sweeps:
+        names = listing(" and ".join(key_label(spec, axis.key) for axis in sweep.axes) for sweep in study.sweeps)
+        sentences.append(f"Sweep {names}.")
+    return tuple(sentences) or ("Evaluate the design of the specification; no study was asked for.",)
+
+
+def reached(content: ReportContent) -> Cell:
+    """The outcome in one sentence, with its tone."""
+    design = content.design
+    if design is None:
+        return Cell("No evaluation by finite elements is part of this report.", "muted")
+    if not design.ok:
+        which = "chosen" if content.is_study else "specified"
+        return Cell(f"The {which} design has no figures ({design.status}): {' '.join(design.reasons)}", "bad")
+    checks = content.design_checks
+    broken = [check for check in checks if not check.satisfied]
+    if content.search is not None and content.search.chosen is None:
+        return Cell("The search found no feasible design; the figures are the start’s.", "bad")
+    if broken:
+        names = listing(subject_label(content.spec, check.limit.subject) for check in broken)
+        return Cell(f"{len(broken)} of {len(checks)} requirements are not met: {names}.", "bad")
+    open_ = sum(check.value is None for check in checks)
+    met = f"All {len(checks)} requirements are met" if len(checks) > 1 else "The requirement is met"
+    if checks:
+        return Cell(f"{met}; {open_} could not be checked." if open_ else f"{met}.", "muted" if open_ else "good")
+    return Cell("The design was evaluated; no requirement was set.", "muted")
+
+
+def gain(content: ReportContent) -> tuple[str, ...]:
+    """What the joint optimum gains over the start and over one variable at a time."""
+    search, objective = content.search, content.spec.study.objective
+    if search is None or objective is None or search.chosen is None:
+        return ()
+    label = figure_label(objective.figure)
+    best, start, single = search.chosen, search.start, content.one_at_a_time
+    scale = figure_scale(objective.figure, [best.objective, start.objective])
+    sentences = [
+        f"The joint optimum has a {label} of {scale.quantity(best.objective)}, "
+        f"{change(start.objective, best.objective)} against the start’s {scale.quantity(start.objective)}."
+    ]
+    if single is None:
+        return tuple(sentences)
+    source = next((sweep.sweep.reference_source for sweep in content.sweeps if sweep.sweep.reference_source), "")
+    values = listing(
+        f"{key_label(content.spec, key)} {key_scale(content.spec, key, [value]).quantity(value)}"
+        for key, value in single.values.items()
+    )
+    quoted = f" as published (“no interaction effects were considered”; {source})" if source else ""
+    found = f"One variable at a time{quoted} gives {values}"
+    if single.objective is None:
+        sentences.append(f"{found}, a design without figures: {' '.join(single.evaluation.reasons)}")
+    elif single.feasible:
+        more = change(single.objective, best.objective)
+        sentences.append(f"{found} and {scale.quantity(single.objective)}; the joint optimum is {more} against it.")
+    else:
+        broken = listing(subject_label(content.spec, c.limit.subject) for c in single.checks if not c.satisfied)
+        sentences.append(
+            f"{found} and {scale.quantity(single.objective)}, but breaks the limit on {broken}: "
+            "it could not have been chosen, so the two cannot be compared as designs."
+        )
+    return tuple(sentences)
+
+
+def active(content: ReportContent) -> str:
+    """Which limits hold the chosen design back."""
+    if not content.is_study or not content.design_checks:
+        return ""
+    names = [
+        f"the {subject_label(content.spec, check.limit.subject)}" for check in content.design_checks if check.active
+    ]
+    if not names:
+        return "No requirement is at its limit in the chosen design."
+    return f"At its limit in the chosen design: {listing(names)}."
+
+
+def sweep_finding(spec: Spec, result: SweepResult, figure: str, maximise: bool) -> str:
+    """Where the sweep's best lies, beside the published one."""
+    best = result.best(figure, maximise)
+    failed = sum(not row.evaluation.ok for row in result.rows)
+    tail = f" {failed} of {len(result.rows)} designs {'has' if failed == 1 else 'have'} no result." if failed else ""
+    if best is None:
+        return f"No design of this sweep has a {figure_label(figure)}.{tail}"
+    at = listing(
+        f"{key_label(spec, key)} {key_scale(spec, key, [value]).quantity(value)}" for key, value in best.values.items()
+    )
+    value = getattr(best.evaluation.performance, figure)
+    word = "largest" if maximise else "smallest"
+    top = figure_scale(figure, [value]).quantity(value)
+    text = f"The {word} {figure_label(figure)} of {len(result.rows)} designs, {top}, is at {at}."
+    reference = result.sweep.reference
+    if reference is not None and len(result.sweep.axes) == 1:
+        axis = result.sweep.axes[0]
+        shown = key_scale(spec, axis.key, [reference]).quantity(reference)
+        source = f" ({result.sweep.reference_source})" if result.sweep.reference_source else ""
+        found = best.values[axis.key]
+        same = abs(found - reference) <= 1e-9 * max(abs(found), abs(reference))
+        nearest = min(axis.values, key=lambda v: abs(v - reference))
+        apart = abs(axis.values.index(found) - axis.values.index(nearest)) if found in axis.values else 0
+        agreement = "the same" if same else f"{apart} grid steps from it" if apart != 1 else "one grid step from it"
+        text += f" The published optimum{source} is {shown}: {agreement}."
+    return text + tail
+
+
+def routes(design: Evaluation) -> str:
+    """How far the two routes to the force lie apart."""
+    figures = design.performance
+    worst = max(
+        (abs(p.force_constant_linkage / p.force_constant - 1) for p in design.positions if p.force_constant),
+        default=0.0,
+    )
+    mean = change(figures.force_constant, figures.force_constant_linkage)
+    if not mean:
+        return ""
+    return (
+        f"Mean over the window, the flux-linkage route is {mean} against the stress tensor; "
+        f"at a single position they differ by at most {100 * worst:.2f}\u00a0%."
+    )
+
+
+def ripple(design: Evaluation) -> str:
+    """The force constant's ripple over the window."""
+    values = [p.force_constant for p in design.positions]
+    if len(values) < 2 or not sum(values):
+        return ""
+    share = (max(values) - min(values)) / (sum(values) / len(values))
+    return f"Over the window the force constant varies by {100 * share:.2f}\u00a0% from its least to its largest."
+
+
+def seen(content: ReportContent) -> tuple[str, ...]:
+    """What the page's own figures check."""
+    found = []
+    design = content.design
+    if design is not None and design.positions:
+        steps, residual = max(p.iterations for p in design.positions), max(p.residual for p in design.positions)
+        found.append(
+            f"Newton’s iteration converged at all {len(design.positions)} positions: at most {steps} steps, "
+            f"largest relative residual {residual:.1e}."
+        )
+        found.append(routes(design))
+    network = content.design_network
+    if design is not None and network is not None:
+        over = change(design.performance.force_constant, network.performance.force_constant)
+        if over:
+            sense = "an upper bound, as expected" if over.startswith("+") else "not the upper bound that was expected"
+            found.append(f"Equation (2) of the network lies {over} against the finite elements: {sense}.")
+    found += _masses(content)
+    return tuple(item for item in found if item)
+
+
+def _masses(content: ReportContent) -> list[str]:
+    design = content.design
+    if design is None or not content.parts:
+        return []
+    mover = sum(row.mass * row.count for row in content.parts if row.group == "mover")
+    whole = sum(row.mass * row.count for row in content.parts)
+    pairs = (("mover", mover, design.performance.moving_mass), ("all parts", whole, design.performance.total_mass))
+    return [
+        f"The mass of {name} in the parts list, {listed * 1e3:.2f} g, "
+        + ("equals" if abs(listed - figure) <= 1e-6 * figure else "differs from")
+        + f" the model’s {figure * 1e3:.2f} g."
+        for name, listed, figure in pairs
+        if figure is not None
+    ]
+
+
+def _range(spec: Spec, variable: Variable) -> str:
+    return f"the {key_label(spec, variable.key)} ({key_range(spec, variable.key, variable.lower, variable.upper)})"
+
+
+def _limit(spec: Spec, item: Constraint) -> str:
+    """``the stray field no higher than the start’s``."""
+    label = f"the {subject_label(spec, item.subject)}"
+    found = []
+    for bound, word, same in ((item.lower, "at least", "no lower than"), (item.upper, "at most", "no higher than")):
+        if bound is None:
+            continue
+        if item.relative_to_start:
+            found.append(f"{same} the start’s" if bound == 1 else f"{word} {bound:.4g} times the start’s")
+        else:
+            found.append(f"{word} {subject_scale(spec, item.subject, [bound]).quantity(bound)}")
+    return f"{label} {' and '.join(found)}"
+
+
+def title(content: ReportContent) -> str:
+    """The name of the design, which the specification's author chose."""
+    return str(content.spec.values.get("actuator.name", "Actuator"))

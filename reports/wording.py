@@ -1,0 +1,219 @@
+"""How numbers, units, keys and figures read on the page: SI inside, engineering units and few digits outside."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from fluxbore.design.performance import FIGURES
+from fluxbore.design.spec import Spec
+from fluxbore.design.units import DIMENSIONS
+from fluxbore.optimize.outcome import Limit
+
+DASH = "–"
+"""Stands where a figure is not given."""
+
+DIGITS = 4
+"""Significant digits of a figure: finite elements are right to about 0.2 %."""
+
+_UNIT_SIGNS = {
+    "N/sqrt(W)": "N/√W",
+    "ohm": "Ω",
+    "degC": "°C",
+    "1/mm^2": "mm⁻²",
+    "mm^3": "mm³",
+    "um": "µm",
+    "1": "",
+}
+
+_GREEK = {"tau": "τ", "mu": "µ", "lambda": "λ", "Delta": "Δ"}
+
+
+@dataclass(frozen=True, slots=True)
+class Scale:
+    """A unit of the page: ``shown = (si - offset) / factor``, with the number of decimals that the figures deserve."""
+
+    unit: str
+    factor: float
+    offset: float = 0.0
+    decimals: int = 3
+
+    def number(self, value: float | None) -> str:
+        """The number alone, a dash where there is none."""
+        if value is None or not math.isfinite(value):
+            return DASH
+        return plain((value - self.offset) / self.factor, self.decimals)
+
+    def quantity(self, value: float | None) -> str:
+        """Number and unit."""
+        shown = self.number(value)
+        return shown if shown == DASH or not self.unit else f"{shown}\u00a0{self.unit}"
+
+    def shown(self, value: float) -> float:
+        """The bare number, for the axis of a figure."""
+        return (value - self.offset) / self.factor
+
+
+def plain(value: float, decimals: int) -> str:
+    """Fixed decimals with a true minus sign; no minus zero."""
+    text = f"{value:.{max(decimals, 0)}f}"
+    if float(text) == 0:
+        text = text.lstrip("-")
+    return text.replace("-", "−")
+
+
+def significant(value: float, digits: int = DIGITS) -> str:
+    """This many significant digits, with a power of ten where plain decimals would be long."""
+    if not math.isfinite(value):
+        return DASH
+    if value == 0 or 1e-3 <= abs(value) < 1e6:
+        return f"{value:.{digits}g}".replace("-", "−") if abs(value) < 10**digits else plain(value, 0)
+    mantissa, _, exponent = f"{value:.{digits - 1}e}".partition("e")
+    return f"{mantissa}·10{_superscript(int(exponent))}".replace("-", "−")
+
+
+def scale(dimension: str, values: Iterable[float | None], digits: int = DIGITS) -> Scale:
+    """The unit and decimals in which these values of one dimension are best compared."""
+    sizes = [abs(v) for v in values if v is not None and math.isfinite(v)]
+    largest = max(sizes, default=0.0)
+    smallest = min((v for v in sizes if v > largest / 100), default=0.0)
+    if dimension == "fraction":
+        return Scale("%", 0.01, decimals=2)
+    if dimension == "count":
+        return Scale("", 1.0, decimals=0 if float(largest).is_integer() else 1)
+    if dimension == "power":
+        return Scale("W", 1.0, decimals=_decimals(smallest, digits))
+    table = DIMENSIONS[dimension]
+    name = table.preferred
+    if dimension == "flux density" and largest < 0.1:
+        name = "mT"
+    elif dimension == "electric loading" and largest >= 1e3:
+        name = "kA/m"
+    elif dimension == "mass" and largest >= 10.0:
+        name = "kg"
+    unit = table.units[name]
+    size = abs((smallest - unit.offset) / unit.factor)
+    return Scale(_UNIT_SIGNS.get(name, name), unit.factor, unit.offset, _decimals(size, digits))
+
+
+def key_scale(spec: Spec, name: str, values: Iterable[float | None] = ()) -> Scale:
+    """The scale of a dotted key: lengths keep up to three decimals of a millimetre, trailing zeros cut."""
+    key = spec.kind.key(name)
+    given = [v for v in values if v is not None]
+    if key is None or key.kind != "quantity":
+        return Scale("", 1.0, decimals=_needed(given, 1.0, 0.0))
+    base = scale(key.dimension, given)
+    return Scale(base.unit, base.factor, base.offset, _needed(given, base.factor, base.offset))
+
+
+def key_range(spec: Spec, name: str, lower: float, upper: float) -> str:
+    """``0.3 to 2.5 mm``, each number with the decimals it needs."""
+    return f"{key_scale(spec, name, [lower]).number(lower)} to {key_scale(spec, name, [upper]).quantity(upper)}"
+
+
+def figure_scale(name: str, values: Iterable[float | None]) -> Scale:
+    """The scale of a figure of `Performance`."""
+    return scale(FIGURES[name].dimension, values)
+
+
+def subject_scale(spec: Spec, subject: str, values: Iterable[float | None]) -> Scale:
+    """The scale of what a limit is about: a figure's name or a dotted key."""
+    return figure_scale(subject, values) if subject in FIGURES else key_scale(spec, subject, values)
+
+
+def figure_label(name: str) -> str:
+    """``force_constant`` -> ``force constant``, with the words that a bare name lacks."""
+    own = {
+        "force_constant_linkage": "force constant, by flux linkage",
+        "turns": "turns of a phase",
+        "outer_diameter": "overall diameter",
+        "length": "overall length",
+        "cogging_force": "largest cogging force",
+        "pneumatic_force_advance": "pneumatic force, advancing",
+        "pneumatic_force_retract": "pneumatic force, retracting",
+    }
+    return own.get(name, name.replace("_", " "))
+
+
+def key_label(spec: Spec, name: str) -> str:
+    """What a dotted key is called: the table's own short description, else the last part of its name.
+
+    Descriptions that run on into an explanation are cut at the first comma, colon or semicolon.
+    """
+    own = {
+        "actuator.mover.ring_width": "ring width",
+        "actuator.winding.turns_density": "turns density",
+        "actuator.winding.yoke_clearance": "clearance of winding and yoke",
+    }
+    if name in own:
+        return own[name]
+    key = spec.kind.key(name)
+    return re.split(r"[;:,]", key.doc)[0].strip() if key is not None else name.rpartition(".")[2].replace("_", " ")
+
+
+def subject_label(spec: Spec, subject: str) -> str:
+    return figure_label(subject) if subject in FIGURES else key_label(spec, subject)
+
+
+def symbol(spec: Spec, name: str) -> str:
+    """The key's symbol as text, with Greek letters: ``tau_f`` -> ``τ_f``; empty without one."""
+    key = spec.kind.key(name)
+    if key is None:
+        return ""
+    return re.sub(r"[A-Za-z]+", lambda match: _GREEK.get(match.group(), match.group()), key.symbol)
+
+
+def limit_text(spec: Spec, limit: Limit) -> str:
+    """``at most 21.3 mT``."""
+    shown = subject_scale(spec, limit.subject, [limit.limit]).quantity(limit.limit)
+    return f"{'at most' if limit.sense == '<=' else 'at least'} {shown}"
+
+
+def change(before: float | None, after: float | None) -> str:
+    """The relative change in per cent, signed; empty where it means nothing."""
+    if before is None or after is None or not before or not (math.isfinite(before) and math.isfinite(after)):
+        return ""
+    percent = 100 * (after - before) / abs(before)
+    if abs(percent) < 0.005:
+        return "±0\u00a0%"
+    decimals = 0 if abs(percent) >= 100 else 1 if abs(percent) >= 1 else 2
+    return f"{'+' if percent > 0 else ''}{plain(percent, decimals)}\u00a0%"
+
+
+def duration(seconds: float) -> str:
+    """``42 s`` or ``3 min 5 s``."""
+    if seconds < 10:
+        return f"{seconds:.1f} s"
+    whole = round(seconds)
+    return f"{whole} s" if whole < 120 else f"{whole // 60} min {whole % 60} s"
+
+
+def capital(text: str) -> str:
+    """The first letter large, the rest as it is."""
+    return text[:1].upper() + text[1:]
+
+
+def listing(words: Iterable[str]) -> str:
+    """``a, b and c``."""
+    items = list(words)
+    return items[0] if len(items) == 1 else f"{', '.join(items[:-1])} and {items[-1]}" if items else ""
+
+
+def _decimals(size: float, digits: int) -> int:
+    """Decimals that leave this many significant digits to a number of this size, none needlessly beyond it."""
+    if size <= 0 or not math.isfinite(size):
+        return 1
+    return min(max(digits - 1 - math.floor(math.log10(size)), 0), 8)
+
+
+def _needed(values: Iterable[float], factor: float, offset: float, most: int = 3) -> int:
+    """Fewest decimals, up to ``most``, at which each of these values is exact; ``most`` where it never is."""
+    shown = [(value - offset) / factor for value in values if math.isfinite(value)]
+    exact = (d for d in range(most) if all(abs(round(v, d) - v) < 1e-9 * max(abs(v), 1.0) for v in shown))
+    return next(exact, most)
+
+
+def _superscript(number: int) -> str:
+    return str(number).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
