@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 
 from fluxbore import __version__
 from fluxbore.design.errors import MaterialError, MissingLibraryError
-from fluxbore.design.hybrid import HybridActuator
 from fluxbore.design.magnetic_network import Slots, cylinder_insertion
 from fluxbore.design.spec import Spec
 from fluxbore.geometry.assembly import Assembly, interferences
@@ -107,8 +106,8 @@ def slot_comparison(spec: Spec) -> SlotComparison | None:
     return SlotComparison(found.walls, found.slotted, found.slotless, note)
 
 
-def checked(actuator: HybridActuator, parts: Assembly, evaluation: Evaluation | None) -> tuple[str, ...]:
-    """What was looked at and held, in sentences with the figures."""
+def checked(parts: Assembly) -> tuple[str, ...]:
+    """What was looked at and held beyond what the page sees by itself, in sentences with the figures."""
     found = interferences(parts)
     designed = [item for item in found if item.designed]
     sentences = []
@@ -121,9 +120,6 @@ def checked(actuator: HybridActuator, parts: Assembly, evaluation: Evaluation | 
     else:
         names = "; ".join(f"{item.first} and {item.second}" for item in found if not item.designed)
         sentences.append(f"Interference: {names} overlap.")
-    if evaluation is not None and evaluation.ok and evaluation.positions:
-        worst = max(item.residual for item in evaluation.positions)
-        sentences.append(f"Convergence: the largest relative residual over the window is {worst:.1e}.")
     return tuple(sentences)
 
 
