@@ -116,6 +116,10 @@ def _interrupts_held_back() -> Iterator[None]:
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return
+    from multiprocessing import resource_tracker
+
+    # The first start of a process would start this helper on its way and unblock the signal after it.
+    resource_tracker.ensure_running()
     before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
         yield
@@ -136,6 +140,7 @@ def _main_hidden() -> Iterator[None]:
 
 def _work(connection: Connection) -> None:
     """The worker's life: take a task, answer, until the pipe ends."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # where there was no mask to inherit
     with contextlib.suppress(OSError):
         os.dup2(2, 1)  # the command line's standard output is for its JSON alone
     threading.Thread(target=_end_with_parent, daemon=True).start()

@@ -47,6 +47,10 @@ def surroundings(_):
     return [os.environ.get(name) for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS")], "numpy" in sys.modules
 
 
+def interrupts_blocked(_):
+    return signal.SIGINT in signal.pthread_sigmask(signal.SIG_BLOCK, ())
+
+
 def chatter(_):
     print("chatter", flush=True)
     os.write(1, b"more chatter\n")

@@ -180,6 +180,19 @@ def test_a_plain_script_needs_no_guard(tmp_path):
     assert (out, errors) == ("once\n12\n", "")
 
 
+def test_ctrl_c_reaches_no_worker_from_its_first_moment(tmp_path):
+    """Catches a traceback of each worker on Ctrl-C; the very first one of a process is the one that escapes."""
+    script = tmp_path / "script.py"
+    script.write_text(
+        "import jobs, signal\nfrom fluxbore.optimize.executor import local_executor\n"
+        "with local_executor(2) as executor:\n"
+        "    print([o.value for o in executor.run(jobs.interrupts_blocked, range(4))])\n"
+        "print(jobs.interrupts_blocked(None))\n"
+    )
+    out, errors = start(script).communicate()
+    assert (out, errors) == ("[True, True, True, True]\nFalse\n", "")
+
+
 def test_workers_that_cannot_start_are_one_sentence(monkeypatch):
     """Catches an endless series of processes that die as they are born."""
     monkeypatch.setattr("fluxbore.optimize.worker._work", jobs.stillborn)

@@ -78,12 +78,6 @@ def slow(design: Spec, fidelity="fem") -> Evaluation:
     return plain(design, fidelity)
 
 
-def endless(design: Spec, fidelity="fem") -> Evaluation:
-    log(design)
-    time.sleep(600)
-    return plain(design, fidelity)
-
-
 def crashing(design: Spec, fidelity="fem") -> Evaluation:
     """Three ways to lose a process and two to fail within it, at five designs of the grid."""
     point = design.number(X), design.number(Y), design.number(N)
@@ -100,17 +94,8 @@ def crashing(design: Spec, fidelity="fem") -> Evaluation:
     return plain(design, fidelity)
 
 
-def crashing_once(design: Spec, fidelity="fem") -> Evaluation:
-    """One design kills its worker the first time only, as a neighbour's greed for memory would."""
-    flag = Path(os.environ["TOY_LOG"] + ".flag")
-    if design.number(X) == 2.5 and not flag.exists():
-        flag.touch()
-        os.kill(os.getpid(), signal.SIGKILL)
-    return plain(design, fidelity)
-
-
 def rosenbrock(design: Spec, fidelity="fem") -> Evaluation:
-    """Force 1000 - Rosenbrock(x, y); stray field x^2 + y^2, which constrained to 1 has its optimum on the limit.
+    """Force 10 - a tamer Rosenbrock function; stray field x^2 + y^2, which held below 1 puts the optimum on the limit.
 
     The network is another, smoother function that knows no stray field, as in life.
     """
