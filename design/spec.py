@@ -146,7 +146,8 @@ class Spec:
         content = {
             "kind": self.kind.name,
             "given": dict(sorted(self.given.items())),
-            "materials": self.own_materials,
+            # As read, not as written: a B-H table in a file of its own counts by its contents.
+            "materials": {name: repr(self.materials[name]) for name in sorted(self.own_materials)},
             "study": repr(self.study),
         }
         return hashlib.sha256(json.dumps(content, sort_keys=True, default=str).encode()).hexdigest()
