@@ -30,6 +30,7 @@ class FluxMap:
     flux_density : |B| (T), (n,) at the nodes or (m,) in the triangles; the latter keeps jumps at material boundaries.
     outlines : name and (k, 2) polygon of (r, z) (m) of every part to be drawn over the field.
     position : of the mover (m).
+    region : (m,) number of the material region of each triangle; with it field lines are drawn smooth within each.
     """
 
     r: Array
@@ -39,6 +40,7 @@ class FluxMap:
     flux_density: Array
     outlines: tuple[tuple[str, Array], ...]
     position: float
+    region: Triangles | None = None
 
 
 @dataclass(frozen=True, slots=True)

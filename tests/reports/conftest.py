@@ -236,7 +236,7 @@ def an_assembly(ring: float = 1.5e-3, yoke: float = 1e-3) -> Assembly:
     copper = ((0.80, 0.36, 0.20), (0.87, 0.55, 0.22), (0.66, 0.42, 0.30))
     for i in range(24):
         box = rectangle(0.010, inner - 4e-4, -0.004 + 0.008 * i, 0.004 + 0.008 * i)
-        parts.append(Part(f"coil {'UVW'[i % 3]}{i // 3 + 1}", "coil", "stator", "copper", copper[i % 3], box))
+        parts.append(Part(f"coil {i + 1:02d} {'UVW'[i % 3]}", "coil", "stator", "copper", copper[i % 3], box))
     tube = rectangle(0.00805, 0.010, -0.0205, 0.2045)
     parts.append(Part("cylinder tube", "cylinder tube", "stator", "aluminium", (0.76, 0.79, 0.83), tube))
     shaft = rectangle(0.0, 0.004, position - 0.01, position + 0.225)

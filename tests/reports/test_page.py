@@ -179,7 +179,7 @@ def test_the_file_is_written_whole_or_not_at_all(content: ReportContent, tmp_pat
 
 def _light(content: ReportContent) -> ReportContent:
     """Without the figures that take long to draw and that the case is not about."""
-    return dataclasses.replace(content, flux_map=None, start_flux_map=None, slots=None, assembly=None)
+    return dataclasses.replace(content, flux_map=None, start_flux_map=None, slots=None, assembly=None, sweeps=())
 
 
 def _bare(content: ReportContent) -> ReportContent:
@@ -242,7 +242,10 @@ def _flat_density(content: ReportContent) -> ReportContent:
     field = content.flux_map
     assert field is not None
     flat = np.asarray(field.flux_density[field.triangles].mean(axis=1))
-    return ReportContent(spec=content.spec, flux_map=dataclasses.replace(field, flux_density=flat, outlines=()))
+    region = (field.r[field.triangles].mean(axis=1) > 8e-3).astype(int)
+    return ReportContent(
+        spec=content.spec, flux_map=dataclasses.replace(field, flux_density=flat, outlines=(), region=region)
+    )
 
 
 @pytest.mark.parametrize(
