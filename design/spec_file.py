@@ -47,10 +47,22 @@ def to_toml(spec: Spec, comment: str = "") -> str:
         sections.setdefault(key.section, []).append(f"{key.leaf} = {text}{unit}")
     for section, content in sections.items():
         lines += ["", f"[{section}]", *content]
-    for name, table in spec.own_materials.items():
+    for name, table in _materials(spec).items():
         lines += ["", f"[materials.{toml_string(name)}]", *(f"{key} = {_plain(value)}" for key, value in table.items())]
     lines += _study_lines(spec.study, {key.name: key for key in spec.kind.keys})
     return "\n".join(lines).lstrip("\n") + "\n"
+
+
+def _materials(spec: Spec) -> dict[str, dict[str, Any]]:
+    """The specification's own materials; a B-H table that came from a file is written in full, to travel along."""
+    tables = {}
+    for name, table in spec.own_materials.items():
+        curve = spec.materials[name].curve
+        if "bh_file" in table and curve is not None:
+            pairs = [list(pair) for pair in zip(curve.b, curve.h, strict=True)]
+            table = {**{key: value for key, value in table.items() if key != "bh_file"}, "bh": pairs}
+        tables[name] = dict(table)
+    return tables
 
 
 def _plain(value: Any) -> str:
