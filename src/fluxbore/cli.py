@@ -38,7 +38,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         options.arguments = arguments
         command: Callable[[argparse.Namespace], int] = options.command
         status = command(options)
-        sys.stdout.flush()
+        if sys.stdout is not None:  # None where it was closed before the start
+            sys.stdout.flush()
         return status
     except FluxboreError as error:
         return _refuse(str(error))
@@ -95,12 +96,14 @@ def _parser() -> argparse.ArgumentParser:
     _with_run(add("optimize", _optimize, "search for the study's best design"), folder_needed=False)
 
     export = _with_spec(add("export", _export, "write the design as STEP files"))
-    export.add_argument("-o", "--output", metavar="DIR", required=True, help="folder for the files")
+    export.add_argument("-o", "--output", metavar="DIR", type=_path, required=True, help="folder for the files")
     export.add_argument("--format", choices=("step",), default="step", help="default: step")
     export.add_argument("--json", action="store_true", help="print JSON")
 
     report = _with_spec(add("report", _report, "write the report of the specification's own design"))
-    report.add_argument("-o", "--output", metavar="FILE", required=True, help="the HTML file, or a folder for it")
+    report.add_argument(
+        "-o", "--output", metavar="FILE", type=_path, required=True, help="the HTML file, or a folder for it"
+    )
     report.add_argument("--no-picture", action="store_true", help="do without the rendered picture")
     report.add_argument("--json", action="store_true", help="print JSON")
 
@@ -110,7 +113,7 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _with_spec(parser: argparse.ArgumentParser) -> argparse.ArgumentParser:
-    parser.add_argument("spec", metavar="SPEC", help="specification file (TOML)")
+    parser.add_argument("spec", metavar="SPEC", type=_path, help="specification file (TOML)")
     parser.add_argument(
         "--set",
         metavar="KEY=VALUE",
@@ -124,7 +127,12 @@ def _with_spec(parser: argparse.ArgumentParser) -> argparse.ArgumentParser:
 def _with_run(parser: argparse.ArgumentParser, *, folder_needed: bool) -> argparse.ArgumentParser:
     _with_spec(parser)
     parser.add_argument(
-        "-o", "--output", metavar="DIR", required=folder_needed, help="folder for the results; a run goes on in it"
+        "-o",
+        "--output",
+        metavar="DIR",
+        type=_path,
+        required=folder_needed,
+        help="folder for the results; a run goes on in it",
     )
     parser.add_argument("--workers", type=_positive, metavar="N", help="processes; default: one a core")
     parser.add_argument("--force", action="store_true", help="replace the results of another specification in DIR")
@@ -135,8 +143,15 @@ def _with_run(parser: argparse.ArgumentParser, *, folder_needed: bool) -> argpar
 
 def _positive(text: str) -> int:
     if not text.isascii() or not text.isdigit() or not 1 <= int(text) <= 1024:
-        raise argparse.ArgumentTypeError(f"must be a whole number from 1 to 1024; got {text!r}")
+        raise argparse.ArgumentTypeError(f"must be a whole number from 1 to 1024; got {shown(text)}")
     return int(text)
+
+
+def _path(text: str) -> str:
+    """Refuses the empty name, which a script's unset variable makes and Python takes for the working folder."""
+    if not text or "\0" in text:
+        raise argparse.ArgumentTypeError(f"must name a file or folder; got {shown(text)}")
+    return text
 
 
 def _load(options: argparse.Namespace) -> Spec:
