@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
-from fluxbore.design.keys import Key
+from fluxbore.design.keys import LONGEST_WORD, Key
 from fluxbore.design.material_table import schema as material_schema
 from fluxbore.design.performance import FIGURES
 from fluxbore.design.spec import KINDS
@@ -60,10 +60,15 @@ def _value(key: Key) -> dict[str, Any]:
     if key.kind == "quantity":
         return _quantity(key.dimension)
     if key.kind == "word":
-        return {"type": "string", "enum": list(key.choices)} if key.choices else {"type": "string", "minLength": 1}
+        return {"type": "string", "enum": list(key.choices)} if key.choices else _text()
     limits = {"exclusiveMinimum": key.above, "minimum": key.minimum, "maximum": key.maximum}
     kind = "integer" if key.kind == "integer" else "number"
     return {"type": kind, **{name: limit for name, limit in limits.items() if limit is not None}}
+
+
+def _text() -> dict[str, Any]:
+    """Text with something to see in it."""
+    return {"type": "string", "pattern": r"\S", "maxLength": LONGEST_WORD}
 
 
 def _quantity(dimension: str) -> dict[str, Any]:
@@ -91,10 +96,10 @@ def _study(numeric: Iterable[str]) -> dict[str, Any]:
             "constraints": _tables({"figure": figure, "key": key, "upper": bound, "lower": bound}, ()),
             "sweeps": _tables(
                 {
-                    "name": {"type": "string"},
+                    "name": _text(),
                     "axes": {"type": "array", "items": axis, "minItems": 1},
                     "published_optimum": bound,
-                    "source": {"type": "string"},
+                    "source": _text(),
                 },
                 ("axes",),
             ),

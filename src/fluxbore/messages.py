@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Self
 
 from fluxbore.design.keys import Value
 from fluxbore.design.performance import FIGURES
-from fluxbore.design.spec import Spec
+from fluxbore.design.spec import KINDS, Spec
 from fluxbore.design.units import DIMENSIONS, format_quantity
 from fluxbore.optimize.evaluation import Evaluation, to_plain
 from fluxbore.optimize.outcome import Candidate, Check, SearchResult, SweepResult
@@ -195,11 +195,23 @@ def _misses(result: SearchResult) -> list[str]:
         return sorted({reason for step in result.history for reason in step.evaluation.reasons})
     nearest = max(sound, key=lambda step: min(_margin(check) for check in step.checks))
     return [
-        f"The nearest design misses {check.limit.subject} {check.limit.sense} {check.limit.limit:.6g}: "
-        f"it has {check.value if check.value is not None else 'no value'}."
+        f"The nearest design misses {_limit(check)}: it has "
+        f"{_show(check.limit.subject, check.value) if check.value is not None else 'no value'}."
         for check in nearest.checks
         if not check.satisfied
     ]
+
+
+def _limit(check: Check) -> str:
+    return f"{check.limit.subject} {check.limit.sense} {_show(check.limit.subject, check.limit.limit)}"
+
+
+def _show(subject: str, value: float) -> str:
+    """A figure or a key's value in its preferred unit; not rounded so far that a limit and its miss look alike."""
+    if subject in FIGURES:
+        return show_figure(subject, value, 6)
+    key = next((key for kind in KINDS.values() if (key := kind.key(subject)) is not None), None)
+    return key.show(value) if key is not None else f"{value:.6g}"
 
 
 def _margin(check: Check) -> float:
@@ -220,7 +232,8 @@ def search_text(spec: Spec, result: SearchResult) -> str:
         lines.append(f"{name}: {show_figure(name, before)} -> {show_figure(name, after)}")
     for check in chosen.checks:
         state = "active" if check.active else "held"
-        lines.append(f"{check.limit.subject} {check.limit.sense} {check.limit.limit:.6g}: {check.value:.6g}, {state}")
+        found = _show(check.limit.subject, check.value) if check.value is not None else "no value"
+        lines.append(f"{_limit(check)}: {found}, {state}")
     return "\n".join(lines)
 
 
@@ -302,4 +315,4 @@ def _line(progress: Progress) -> str:
 def _at(values: Mapping[str, float] | None) -> str:
     if not values:
         return ""
-    return " at " + ", ".join(f"{key.rpartition('.')[2]} {value:.4g}" for key, value in values.items())
+    return " at " + ", ".join(f"{key.rpartition('.')[2]} {_show(key, value)}" for key, value in values.items())
