@@ -79,9 +79,14 @@ def gain(content: ReportContent) -> tuple[str, ...]:
     best, start, single = search.chosen, search.start, content.one_at_a_time
     scale = figure_scale(objective.figure, [best.objective, start.objective])
     sentences = [
-        f"The joint optimum has a {label} of {scale.quantity(best.objective)}, "
+        f"The chosen design has a {label} of {scale.quantity(best.objective)}, "
         f"{change(start.objective, best.objective)} against the start’s {scale.quantity(start.objective)}."
     ]
+    if search.best is not None and search.best is not search.chosen and search.best.objective != best.objective:
+        sentences.append(
+            f"Before it was rounded to the workshop’s steps the joint optimum reached "
+            f"{scale.quantity(search.best.objective)}, {change(start.objective, search.best.objective)}."
+        )
     if single is None:
         return tuple(sentences)
     source = next((sweep.sweep.reference_source for sweep in content.sweeps if sweep.sweep.reference_source), "")
@@ -95,7 +100,7 @@ def gain(content: ReportContent) -> tuple[str, ...]:
         sentences.append(f"{found}, a design without figures: {' '.join(single.evaluation.reasons)}")
     elif single.feasible:
         more = change(single.objective, best.objective)
-        sentences.append(f"{found} and {scale.quantity(single.objective)}; the joint optimum is {more} against it.")
+        sentences.append(f"{found} and {scale.quantity(single.objective)}; the chosen design is {more} against it.")
     else:
         broken = listing(subject_label(content.spec, c.limit.subject) for c in single.checks if not c.satisfied)
         sentences.append(

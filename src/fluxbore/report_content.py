@@ -47,7 +47,7 @@ def flux_map(spec: Spec) -> FluxMap:
     boxes = [(item.region.name, item.r, item.z) for item in solved.section.rectangles]
     boxes += [(f"coil {coil.circuit}", coil.r, coil.z) for coil in solved.section.coils]
     outlines = tuple((name, np.array([(r[0], z[0]), (r[1], z[0]), (r[1], z[1]), (r[0], z[1])])) for name, r, z in boxes)
-    return FluxMap(field.r, field.z, field.triangles, field.flux, field.flux_density, outlines, position)
+    return FluxMap(field.r, field.z, field.triangles, field.flux, field.flux_density, outlines, position, field.region)
 
 
 def picture(parts: Assembly) -> Picture:
@@ -57,7 +57,7 @@ def picture(parts: Assembly) -> Picture:
     from fluxbore.reports.scene import render_picture
 
     try:
-        meshes = tessellate(parts, 2e-4, cut_away=True)
+        meshes = tessellate(parts, 2e-5, cut_away=True)
     except MissingLibraryError as error:
         return Picture(None, str(error))
     return render_picture(meshes)
