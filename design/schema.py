@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 from fluxbore.design.keys import LONGEST_WORD, Key
@@ -35,7 +35,7 @@ def _of_kind(name: str, keys: tuple[Key, ...]) -> dict[str, Any]:
     tree["properties"]["actuator"]["properties"]["kind"] = {"const": name}
     tree["properties"]["actuator"]["required"] = ["kind"]
     tree["properties"]["materials"] = {"type": "object", "additionalProperties": material_schema()}
-    tree["properties"]["study"] = _study([key.name for key in keys if key.kind != "word"])
+    tree["properties"]["study"] = _study([key for key in keys if key.kind != "word" and key.section != "solver"])
     tree["required"] = ["actuator"]
     return tree
 
@@ -81,19 +81,58 @@ def _quantity(dimension: str) -> dict[str, Any]:
     }
 
 
-def _study(numeric: Iterable[str]) -> dict[str, Any]:
+def _bounds(keys: Iterable[Key], values: Iterable[str], steps: Iterable[str] = (), *, relative: bool = False) -> Any:
+    """Conditions: where ``key`` names a length, ``values`` and ``steps`` are lengths, and so on."""
+    kinds: dict[tuple[str, str], list[Key]] = {}
+    for key in keys:
+        kinds.setdefault((key.kind, key.dimension if key.kind == "quantity" else ""), []).append(key)
+    conditions = []
+    for alike in kinds.values():
+        value, step = (_measure(key, relative=relative) for key in (alike[0], alike[0].difference))
+        then = dict.fromkeys(values, value) | dict.fromkeys(steps, step)
+        if "values" in then:
+            then["values"] = {"type": "array", "items": value, "minItems": 1}
+        named = {"properties": {"key": {"enum": [key.name for key in alike]}}, "required": ["key"]}
+        conditions.append({"if": named, "then": {"properties": then}})
+    return {"allOf": conditions}
+
+
+def _measure(key: Key, *, relative: bool) -> dict[str, Any]:
+    """A value of a key without the key's own limits; ``relative`` ones may refer to the start design."""
+    if key.kind == "quantity":
+        value = _quantity(key.dimension)
+    else:
+        value = {"type": "integer" if key.kind == "integer" and not relative else "number"}
+    return {"anyOf": [value, {"type": "string", "pattern": "start *$"}]} if relative else value
+
+
+def _study(numeric: Sequence[Key]) -> dict[str, Any]:
     bound = {"type": ["string", "number"]}
-    key = {"enum": list(numeric)}
-    axis = _table({"key": key, "from": bound, "to": bound, "step": bound, "values": {"type": "array", "items": bound}})
+    key = {"enum": [item.name for item in numeric]}
+    continuous = [item for item in numeric if item.kind != "integer"]
+    axis = _table(
+        {"key": key, "from": bound, "to": bound, "step": bound, "values": {"type": "array", "items": bound}}, ("key",)
+    ) | _bounds(numeric, ("from", "to", "values"), ("step",))
     figure = {"enum": list(FIGURES)}
     return _table(
         {
             "objective": {"enum": [f"{verb} {name}" for verb in ("maximise", "minimise") for name in FIGURES]},
             "hold": {"type": "array", "items": {"type": "string"}},
             "variables": _tables(
-                {"key": key, "lower": bound, "upper": bound, "resolution": bound}, ("key", "lower", "upper")
+                {
+                    "key": {"enum": [item.name for item in continuous]},
+                    "lower": bound,
+                    "upper": bound,
+                    "resolution": bound,
+                },
+                ("key", "lower", "upper"),
+                _bounds(continuous, ("lower", "upper"), ("resolution",)),
             ),
-            "constraints": _tables({"figure": figure, "key": key, "upper": bound, "lower": bound}, ()),
+            "constraints": _tables(
+                {"figure": figure, "key": key, "upper": bound, "lower": bound},
+                (),
+                _bounds(numeric, ("lower", "upper"), relative=True),
+            ),
             "sweeps": _tables(
                 {
                     "name": _text(),
@@ -124,5 +163,7 @@ def _table(properties: dict[str, Any], required: tuple[str, ...] = ()) -> dict[s
     }
 
 
-def _tables(properties: dict[str, Any], required: tuple[str, ...]) -> dict[str, Any]:
-    return {"type": "array", "items": _table(properties, required)}
+def _tables(
+    properties: dict[str, Any], required: tuple[str, ...], conditions: dict[str, Any] | None = None
+) -> dict[str, Any]:
+    return {"type": "array", "items": _table(properties, required) | (conditions or {})}

@@ -130,12 +130,42 @@ def test_what_a_person_gets_wrong_most_is_refused():
         "study.search": {"algorithm": "SLSQP"},
         "study.goal": 1,
         "study.variables": [{"key": "actuator.mover.ring_width", "lower": "1 mm"}],
+        "study.constraints": [{"key": "actuator.mover.ring_width", "upper": "1 T"}],
+        "study.sweeps": [{"axes": [{"key": "actuator.mover.ring_width", "values": [1]}]}],
+        "study.hold": "actuator.winding.turns_density",
         "materials": {"mine": {"type": "soft iron"}},
         "extra": {},
     }.items():
         assert fits(SCHEMA, RAW)
         assert not fits(SCHEMA, changed(name, value)), name
         assert not reads(changed(name, value)), name
+
+
+STUDIES = {
+    "study.variables": [
+        {"key": "operating_point.magnet_temperature", "lower": "20 degC", "upper": "80 degC", "resolution": "5 K"},
+        {"key": "actuator.winding.turns_density", "lower": "1 1/mm^2", "upper": "5 1/mm^2"},
+    ],
+    "study.constraints": [
+        {"key": "actuator.mover.ring_width", "upper": "1.1 x start", "lower": "start"},
+        {"key": "actuator.winding.sets_per_phase", "upper": 8.5},
+        {"figure": "copper_loss", "upper": 3},
+    ],
+    "study.sweeps": [
+        {"name": "a", "axes": [{"key": "actuator.winding.sets_per_phase", "from": 6, "to": 8, "step": 1}]},
+        {"name": "b", "axes": [{"key": "actuator.mover.magnet_permeability", "values": [1, 1.05]}]},
+        {"name": "c", "axes": [{"key": "operating_point.pressure", "values": ["1 bar absolute"]}]},
+    ],
+}
+
+
+def test_studies_that_are_sound_fit():
+    """Catches conditions on units that refuse what the reader takes."""
+    for name, value in STUDIES.items():
+        tree = changed(name, value)
+        tree["study"]["hold"] = []
+        assert fits(SCHEMA, tree), name
+        assert reads(tree), name
 
 
 values = st.one_of(
