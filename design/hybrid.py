@@ -20,6 +20,9 @@ from fluxbore.design.units import format_quantity
 
 PHASES = ("U", "V", "W")
 
+THINNEST = 1e-6
+"""m; a thinner wall or gap is a slip of the unit, and the field's mesh would fold it away."""
+
 
 @dataclass(frozen=True, slots=True)
 class BackYoke:
@@ -202,7 +205,7 @@ class HybridActuator:
         )
         for (inner, small), (outer, large) in pairwise(steps):
             touching = inner == "actuator.winding.outer_diameter"
-            if large < small or (large <= small * (1 + 1e-9) and not touching):
+            if large < small or (large - small < 2 * THINNEST and not touching):
                 verb = "must not be below" if touching else "must exceed"
                 raise DesignError(f"{outer} {verb} {inner} {_mm(small)}; got {_mm(large)}.")
         if self.mover.ring_width < 0:

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from fluxbore.design import hybrid, hybrid_keys, materials
-from fluxbore.design.errors import SpecError, shown
+from fluxbore.design.errors import MaterialError, SpecError, shown
 from fluxbore.design.hybrid import HybridActuator
 from fluxbore.design.keys import Alternatives, Key, Value, Values
 from fluxbore.design.study import Study
@@ -329,7 +329,12 @@ def _check_materials(spec: Spec) -> None:
     for key in spec.kind.keys:
         role = MATERIAL_ROLES.get(key.name)
         if role is not None:
-            materials.lookup(spec.word(key.name), key.name, spec.materials, role)
+            found = materials.lookup(spec.word(key.name), key.name, spec.materials, role)
+            if role is materials.Material and isinstance(found, materials.PermanentMagnet):
+                raise MaterialError(
+                    f"{key.name} must name a material without magnetisation of its own; "
+                    f"got {shown(found.name)}, a permanent magnet."
+                )
 
 
 MATERIAL_ROLES: dict[str, type[materials.Material] | None] = {

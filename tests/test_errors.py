@@ -105,6 +105,8 @@ SPECS = {
     "a thick magnet": (swap('ring_width = "1.5 mm"', 'magnet_thickness = "13 mm"'), ["actuator.mover.magnet_thickness must be at most"]),
     "a port through the piston": (swap('value = "5 mm"', 'value = "100 mm"'), ["actuator.end_caps.port_diameter must"]),
     "an unknown material": (swap('"copper"', '"unobtainium"'), ["actuator.winding.material must name a conductor", 'got "unobtainium"']),
+    "a magnet as cylinder": (swap('value = "aluminium 6061"', 'value = "N48"'), ["actuator.cylinder.material must name a material without magnetisation", "a permanent magnet"]),
+    "a yoke of a nanometre": (swap('"1 mm"', '"1e-6 mm"').replace('"24.2 mm"', '"26 mm"'), ["actuator.back_yoke.outer_diameter must exceed actuator.back_yoke.inner_diameter 27 mm"]),
     "a magnet as wire": (swap('"copper"', '"N48"'), ["actuator.winding.material must name a conductor", "a permanent magnet"]),
     "B-H without points": (TEXT + IRON, ["materials.my iron must have exactly one of", "bh_file"]),
     "B-H falls in B": (TEXT + IRON + "bh = [[0.5, 100], [1, 200], [0.9, 300]]", ["materials.my iron.bh row 3 must exceed both B = 1 T, H = 200 A/m", "got B = 0.9 T, H = 300 A/m"]),
