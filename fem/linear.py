@@ -129,6 +129,8 @@ class Corrected:
         self._pattern, self._values, self._factor, self._method = pattern, values, neighbour, method
 
     def solve(self, right: Floats) -> Floats:
+        if right.ndim == 2:
+            return np.column_stack([self.solve(column) for column in right.T])
         x = np.zeros_like(right)
         r = right
         goal = 1e-13 * float(np.linalg.norm(right))

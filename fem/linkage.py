@@ -39,7 +39,8 @@ def coil_density(mesh: Mesh, coil: CoilWindow, candidates: Ints | None = None) -
 
     The window's radii must be mesh lines; its ends may cut elements anywhere. Straight-sided elements only. Each
     triangle is cut at its middle corner into two slabs in z, each slab is clipped to the window, and a Gauss rule of
-    four by four points integrates the quadratic shape functions times 1/r, to rounding for every practical radius.
+    four by four points in (r, z) integrates the shape functions: on rectangles cut in two, any quadratic function of
+    (s, z) exactly.
 
     candidates : the elements between the window's radii, where the caller knows them.
     """
@@ -56,10 +57,13 @@ def coil_density(mesh: Mesh, coil: CoilWindow, candidates: Ints | None = None) -
         top = np.minimum(end[:, 1], coil.z[1])
         height = np.maximum(top - bottom, 0.0)
         z = bottom[:, None] + height[:, None] * _UNIT_POINTS
-        left = _on_edge(low, high, z)
-        right = _on_edge(start, end, z)
-        s = left[..., None] + (right - left)[..., None] * _UNIT_POINTS
-        weight = (height[:, None] * np.abs(right - left) * _UNIT_WEIGHTS)[..., None] * _UNIT_WEIGHTS / np.sqrt(2 * s)
+        # Along r, where the shape functions are polynomials and dr carries no 1/r: the two triangles of a rectangle
+        # then share out the window's turns to rounding.
+        left = np.sqrt(2 * np.maximum(_on_edge(low, high, z), 0.0))
+        right = np.sqrt(2 * np.maximum(_on_edge(start, end, z), 0.0))
+        r = left[..., None] + (right - left)[..., None] * _UNIT_POINTS
+        weight = (height[:, None] * np.abs(right - left) * _UNIT_WEIGHTS)[..., None] * _UNIT_WEIGHTS
+        s = r**2 / 2
         values = shape(_barycentric(triangle, s, np.broadcast_to(z[..., None], s.shape)))
         total += np.einsum("mab,mabn->mn", weight, values, optimize=True)
     density = np.bincount(mesh.elements[touched].ravel(), total.ravel(), mesh.nodes.shape[0])

@@ -50,7 +50,8 @@ def newton(
 ) -> tuple[Floats, Convergence, Factor | None]:
     """Solve residual(x) = 0 from ``start``.
 
-    tangent : factorises d residual / dx, symmetric positive definite. scale : the norm that residuals are relative to.
+    tangent : factorises d residual / dx, symmetric positive definite. scale : the norm that residuals are relative
+    to; where it is zero, the first residual's.
 
     Returns the last x, how it ended, and the last tangent's factor (None where the start was good enough); raises
     nothing for a failure.
@@ -59,11 +60,12 @@ def newton(
     factor: Factor | None = None
     r = residual(x)
     size = float(np.linalg.norm(r))
+    scale = scale or size or 1.0  # without a load, what a start brings along is the measure
     for iteration in range(max_iterations):
         if not np.isfinite(size):
             return x, Convergence("stalled", iteration, float("inf")), factor
         if size <= tolerance * scale:
-            return x, Convergence("converged", iteration, size / scale if scale else 0.0), factor
+            return x, Convergence("converged", iteration, size / scale), factor
         try:
             factor = tangent(x)
             step = factor.solve(-r)

@@ -1,0 +1,126 @@
+"""Factorisations: each against dense algebra and against the other; the pattern; the corrected neighbour."""
+
+import numpy as np
+import pytest
+
+from fluxbore.fem.linear import BandedCholesky, Corrected, Pattern, SingularMatrixError, SuperLU, factorise
+from fluxbore.fem.magnetostatics import Settings, solve
+from fluxbore.fem.tubular import TubularSolution
+
+
+@pytest.fixture(scope="module")
+def small() -> tuple[Pattern, np.ndarray, np.ndarray]:
+    """A pattern of random elements of six nodes, its values, and the same matrix in full."""
+    rng = np.random.default_rng(1)
+    freedom = np.array([[k, k + 1, *rng.choice(np.arange(k + 2, k + 14), 4, replace=False)] for k in range(0, 40, 2)])
+    unknowns = 40
+    freedom[freedom >= unknowns] = -1
+    pattern = Pattern.of_elements(freedom, unknowns)
+    root = rng.normal(size=(freedom.shape[0], 6, 6))
+    matrices = root @ root.transpose(0, 2, 1) + 0.1 * np.eye(6)
+    full = np.zeros((unknowns, unknowns))
+    for row, matrix in zip(freedom, matrices, strict=True):
+        kept = row >= 0
+        full[np.ix_(row[kept], row[kept])] += matrix[np.ix_(kept, kept)]
+    assert np.all(np.diag(full) > 0)
+    return pattern, matrices, full
+
+
+def test_pattern_sums_elements(small: tuple[Pattern, np.ndarray, np.ndarray]) -> None:
+    """Catches an entry that lands in the wrong place: against a plain loop over elements."""
+    pattern, matrices, full = small
+    values = pattern.assemble(matrices)
+    dense = np.zeros_like(full)
+    dense[pattern.rows, pattern.columns] = values
+    assert dense == pytest.approx(np.tril(full))
+    assert pattern.bandwidth == max(i - j for i, j in zip(*np.nonzero(full), strict=True))
+
+
+def test_pattern_of_some_elements(small: tuple[Pattern, np.ndarray, np.ndarray]) -> None:
+    """Catches a subset whose entries are another element's: part and rest make the whole."""
+    pattern, matrices, _ = small
+    total = np.zeros(pattern.nonzeros)
+    for chosen in (np.array([7, 3, 11]), np.setdiff1d(np.arange(20), [3, 7, 11])):
+        sources, targets = pattern.subset(chosen)
+        total += np.bincount(targets, matrices[chosen].ravel()[sources], pattern.nonzeros)
+    assert total == pytest.approx(pattern.assemble(matrices))
+
+
+def test_multiply(small: tuple[Pattern, np.ndarray, np.ndarray]) -> None:
+    """Catches a symmetric half that is lost, or a diagonal that counts twice."""
+    pattern, matrices, full = small
+    x = np.random.default_rng(2).normal(size=full.shape[0])
+    assert pattern.multiply(pattern.assemble(matrices), x) == pytest.approx(full @ x)
+
+
+@pytest.mark.parametrize("factorisation", [BandedCholesky, SuperLU])
+@pytest.mark.parametrize("columns", [None, 3])
+def test_solve(
+    small: tuple[Pattern, np.ndarray, np.ndarray],
+    factorisation: type[BandedCholesky] | type[SuperLU],
+    columns: int | None,
+) -> None:
+    """Catches a wrong packing: against dense algebra, for one right side and for several."""
+    pattern, matrices, full = small
+    shape = (full.shape[0],) if columns is None else (full.shape[0], columns)
+    right = np.random.default_rng(3).normal(size=shape)
+    kept = right.copy()
+    assert factorisation(pattern, pattern.assemble(matrices)).solve(right) == pytest.approx(
+        np.linalg.solve(full, right)
+    )
+    assert np.array_equal(right, kept)
+
+
+@pytest.mark.parametrize("method", ["banded", "superlu"])
+def test_values_that_are_not_finite_are_refused(small: tuple[Pattern, np.ndarray, np.ndarray], method: str) -> None:
+    """Catches a NaN that goes through LAPACK and comes out as a field."""
+    pattern, matrices, _ = small
+    values = pattern.assemble(matrices)
+    values[3] = np.nan
+    with pytest.raises(SingularMatrixError, match="finite"):
+        factorise(pattern, values, "banded" if method == "banded" else "superlu")
+
+
+@pytest.mark.parametrize("method", ["banded", "superlu"])
+def test_a_singular_matrix_is_refused(small: tuple[Pattern, np.ndarray, np.ndarray], method: str) -> None:
+    """Catches a factor of a matrix that has none."""
+    pattern, _, _ = small
+    with pytest.raises(SingularMatrixError):
+        factorise(pattern, np.zeros(pattern.nonzeros), "banded" if method == "banded" else "superlu")
+
+
+def test_banded_equals_superlu_on_the_motor(mid_stroke: TubularSolution) -> None:
+    """Catches a factorisation that is inexact where it matters: two methods, one field, to 1e-10."""
+    problem = mid_stroke.solution.problem
+    other = solve(problem, Settings(method="superlu"))
+    assert other.convergence.converged
+    size = np.abs(other.psi).max()
+    assert np.abs(mid_stroke.solution.psi - other.psi).max() < 1e-10 * size
+
+
+@pytest.mark.parametrize("change", [1e-6, 1e-2, 3.0])
+@pytest.mark.parametrize("columns", [None, 2])
+def test_corrected_neighbour_equals_a_factor_of_its_own(
+    small: tuple[Pattern, np.ndarray, np.ndarray], change: float, columns: int | None
+) -> None:
+    """Catches conjugate gradients that stop early, and a neighbour too far away, for one right side and for several."""
+    pattern, matrices, _ = small
+    neighbour = BandedCholesky(pattern, pattern.assemble(matrices))
+    scale = 1 + change * np.random.default_rng(4).uniform(0, 1, matrices.shape[0])
+    values = pattern.assemble(matrices * scale[:, None, None])
+    shape = (pattern.unknowns,) if columns is None else (pattern.unknowns, columns)
+    right = np.random.default_rng(5).normal(size=shape)
+    corrected = Corrected(pattern, values, neighbour, "banded")
+    exact = BandedCholesky(pattern, values).solve(right)
+    for _ in range(2):
+        assert corrected.solve(right) == pytest.approx(exact, rel=1e-9, abs=1e-10 * np.abs(exact).max())
+    assert corrected.solve(np.zeros(shape)) == pytest.approx(np.zeros(shape))
+
+
+def test_corrected_tangent_of_the_motor_equals_a_factorisation(mid_stroke: TubularSolution) -> None:
+    """Catches thrust constants from a tangent that is one Newton step old."""
+    solution = mid_stroke.solution
+    values = solution.system.tangent_values(solution.psi[solution.system.inner])
+    right = np.random.default_rng(6).normal(size=solution.system.inner.size)
+    exact = factorise(solution.system.pattern, values, "superlu").solve(right)
+    assert np.abs(solution.tangent.solve(right) - exact).max() < 1e-9 * np.abs(exact).max()

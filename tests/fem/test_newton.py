@@ -1,0 +1,188 @@
+"""Newton's iteration: order, the tangent as a derivative, failures as values, starts near and far."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from fluxbore.fem.linear import Factor, SingularMatrixError
+from fluxbore.fem.magnetostatics import Settings, System, solve
+from fluxbore.fem.newton import newton
+from fluxbore.fem.problem import Circuit, MagneticMaterial
+from fluxbore.fem.tubular import TubularSolution
+
+
+class Diagonal:
+    """A factor for scalar equations."""
+
+    def __init__(self, slope: np.ndarray) -> None:
+        if not np.all(slope > 0):
+            raise SingularMatrixError("not positive definite")
+        self._slope = slope
+
+    def solve(self, right: np.ndarray) -> np.ndarray:
+        return right / self._slope
+
+
+def cubic(x: np.ndarray) -> np.ndarray:
+    return x + x**3 - 10
+
+
+def cubic_slope(x: np.ndarray) -> Factor:
+    return Diagonal(1 + 3 * x**2)
+
+
+def test_root_of_a_cubic() -> None:
+    """Catches a step in the wrong direction: x + x³ = 10 has the root 2."""
+    x, convergence, factor = newton(cubic, cubic_slope, np.zeros(1), 10.0, 1e-12, 60)
+    assert x == pytest.approx(2.0)
+    assert convergence.converged
+    assert convergence.residual <= 1e-12
+    assert factor is not None
+
+
+def test_convergence_is_quadratic(mid_stroke: TubularSolution) -> None:
+    """Catches a tangent that is only nearly right: near the motor's solution each residual is the last one's square."""
+    system = mid_stroke.solution.system
+    problem = mid_stroke.solution.problem
+    norms = [solve(problem, Settings(tolerance=0.0, max_iterations=k)).convergence.residual for k in range(1, 8)]
+    assert system.iron_elements.size > 0
+    logs = np.log([norm for norm in norms if norm > 1e-11][-3:])
+    assert (logs[2] - logs[1]) / (logs[1] - logs[0]) > 1.8, norms
+
+
+def test_tangent_is_the_derivative_of_the_residual(mid_stroke: TubularSolution) -> None:
+    """Catches a lost term of the differential reluctivity: against central differences, to 1e-7."""
+    system = mid_stroke.solution.system
+    x = 0.9 * mid_stroke.solution.psi[system.inner]
+    direction = np.random.default_rng(1).normal(size=x.size) * np.abs(x).max()
+    image = system.pattern.multiply(system.tangent_values(x), direction)
+    errors = []
+    for h in (1e-5, 1e-6, 1e-7):
+        differences = (system.residual(x + h * direction) - system.residual(x - h * direction)) / (2 * h)
+        errors.append(np.linalg.norm(differences - image) / np.linalg.norm(image))
+    assert min(errors) < 1e-7, errors
+
+
+def test_residual_is_the_derivative_of_the_energy(mid_stroke: TubularSolution) -> None:
+    """Catches a residual that solves another problem: against differences of the energy, iron by its own integral."""
+    system, problem = mid_stroke.solution.system, mid_stroke.solution.problem
+
+    def energy(x: np.ndarray) -> float:
+        total = 0.5 * x @ system.pattern.multiply(system.linear, x) - system.load @ x
+        squared = np.sum(np.einsum("mqkn,mn->mqk", system.iron_curl, system.spread(x)[system.iron_nodes]) ** 2, axis=-1)
+        for index, part in system.iron:
+            curve = problem.materials[index].curve
+            assert curve is not None
+            total += np.sum(system.iron_weight[part] * curve.energy_density(np.sqrt(squared[part])))
+        return float(total)
+
+    x = 0.9 * mid_stroke.solution.psi[system.inner]
+    step = 1e-4
+    along = x * np.random.default_rng(2).uniform(0.5, 1.5, x.size)
+    slope = (energy(x + step * along) - energy(x - step * along)) / (2 * step)
+    assert system.residual(x) @ along == pytest.approx(slope, rel=1e-6)
+
+
+def test_iteration_limit_is_a_value(mid_stroke: TubularSolution) -> None:
+    """Catches an exception, or a field that pretends: one step from nothing does not do, and says so."""
+    solution = solve(mid_stroke.solution.problem, Settings(max_iterations=1))
+    assert not solution.convergence.converged
+    assert solution.convergence.status == "iteration limit"
+    assert solution.convergence.iterations == 1
+    assert solution.convergence.residual > 1e-8
+    assert "iteration limit" in solution.convergence.sentence()
+    assert np.all(np.isfinite(solution.psi))
+
+
+def test_a_stop_before_the_first_step_is_a_value(mid_stroke: TubularSolution) -> None:
+    """Catches a factor that is used although none was made: no step allowed, and a start that is the solution."""
+    problem = mid_stroke.solution.problem
+    none = solve(problem, Settings(max_iterations=0))
+    assert none.convergence.status == "iteration limit"
+    again = solve(problem, None, mid_stroke.solution.psi)
+    assert again.convergence.converged
+    assert again.convergence.iterations == 0
+    assert again.last_factor is None
+    right = np.ones(again.system.inner.size)
+    np.testing.assert_allclose(again.tangent.solve(right), mid_stroke.solution.tangent.solve(right), rtol=1e-9)
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_load_that_is_not_a_number_is_a_value(mid_stroke: TubularSolution) -> None:
+    """Catches a traceback, a warning or an endless search for a field that does not exist."""
+    problem = mid_stroke.solution.problem
+    broken = replace(problem, circuits=(replace(problem.circuits[0], current=float("nan")),))
+    solution = solve(broken)
+    assert not solution.convergence.converged
+    assert solution.convergence.status == "stalled"
+    assert solution.convergence.sentence()
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_start_that_is_not_a_number_is_a_value(mid_stroke: TubularSolution) -> None:
+    """Catches a cast of NaN to a table's index in the iron."""
+    start = np.full(mid_stroke.solution.psi.size, np.nan)
+    solution = solve(mid_stroke.solution.problem, None, start)
+    assert solution.convergence.status == "stalled"
+
+
+@pytest.mark.parametrize("method", ["banded", "superlu"])
+def test_a_singular_matrix_is_a_value(mid_stroke: TubularSolution, method: str) -> None:
+    """Catches a traceback from the factorisation: a material of no reluctivity leaves the field free."""
+    problem = mid_stroke.solution.problem
+    free = replace(problem, materials=tuple(MagneticMaterial(0.0) for _ in problem.materials))
+    loaded = replace(free, circuits=(replace(problem.circuits[0], current=1.0),))
+    solution = solve(loaded, Settings(method="superlu" if method == "superlu" else "banded"))
+    assert solution.convergence.status == "singular matrix"
+    assert solution.last_factor is None
+
+
+def test_a_step_that_does_not_help_is_a_value() -> None:
+    """Catches an endless backtracking: a tangent of the wrong sign stalls."""
+    x, convergence, _ = newton(lambda x: -x - 1, lambda x: Diagonal(np.ones(1)), np.zeros(1), 1.0, 1e-12, 60)
+    assert convergence.status == "stalled"
+    assert x == pytest.approx(0.0)
+
+
+def test_no_load_has_no_field() -> None:
+    """Catches a division by a load of zero, from nothing and from a neighbour's field."""
+    for start in (np.zeros(3), np.ones(3)):
+        x, convergence, _ = newton(lambda x: 3 * x, lambda x: Diagonal(np.full(3, 3.0)), start, 0.0, 1e-8, 60)
+        assert convergence.converged
+        assert x == pytest.approx(0.0, abs=1e-8)
+
+
+def test_failures_without_a_load_are_values_too() -> None:
+    """Catches a division by zero in the report of a failure."""
+
+    def singular(x: np.ndarray) -> Factor:
+        raise SingularMatrixError("on purpose")
+
+    _, convergence, factor = newton(lambda x: x, singular, np.ones(2), 0.0, 1e-8, 60)
+    assert convergence.status == "singular matrix"
+    assert factor is None
+
+
+def test_a_large_current_saturates_and_converges(mid_stroke: TubularSolution) -> None:
+    """Catches overshoot: 10,000 A in one phase, three orders beyond the winding's, within 60 steps."""
+    problem = mid_stroke.solution.problem
+    first = problem.circuits[0]
+    mad = replace(problem, circuits=(Circuit(first.name, first.density, 1e4), *problem.circuits[1:]))
+    solution = solve(mad)
+    assert solution.convergence.converged, solution.convergence.sentence()
+
+
+def test_assembly_is_the_sum_of_all_elements(mid_stroke: TubularSolution) -> None:
+    """Catches an iron element that is lost or counted twice when only the iron is assembled anew."""
+    from fluxbore.fem.element import stiffness
+
+    system: System = mid_stroke.solution.system
+    problem = mid_stroke.solution.problem
+    # At no field iron is linear: ν(0), no slope.
+    nu = np.array(
+        [m.reluctivity if m.curve is None else m.curve.reluctivity(np.zeros(1))[0][0] for m in problem.materials]
+    )[problem.mesh.region]
+    whole = system.pattern.assemble(stiffness(system.kernel.curl, system.kernel.weight * nu[:, None]))
+    values = system.tangent_values(np.zeros(system.inner.size))
+    assert np.abs(values - whole).max() < 1e-12 * np.abs(whole).max()
