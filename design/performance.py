@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 
-from fluxbore.design.units import DIMENSIONS
+from fluxbore.design.units import DIMENSIONS, format_quantity
 
 
 def _figure(dimension: str, doc: str) -> float | None:
@@ -94,3 +94,13 @@ def to_mapping(performance: Performance) -> dict[str, float | None]:
 def from_mapping(values: Mapping[str, float | None]) -> Performance:
     """The inverse of `to_mapping`; names that no longer exist are a TypeError, which a journal's hash rules out."""
     return Performance(**values)
+
+
+def show_figure(name: str, value: float | None, digits: int = 5) -> str:
+    """A figure in its preferred unit."""
+    if value is None:
+        return "-"
+    figure = FIGURES[name]
+    if figure.dimension in DIMENSIONS:
+        return format_quantity(value, figure.dimension, digits)
+    return f"{value:.{digits}g}" + ("" if figure.si == "1" else f" {figure.si}")

@@ -3,7 +3,8 @@
 With ψ = r·A_φ and s = r²/2 the axisymmetric problem has the energy  ∫ w(|B|) r dr dz  with
 B_z = ∂ψ/∂s and B_r = −(1/r) ∂ψ/∂z, so its weak form is
 
-    ∫ ν [ ∂ψ/∂s ∂v/∂s + 1/(2s) ∂ψ/∂z ∂v/∂z ] ds dz = ∫ J v/√(2s) ds dz + ∫ ν_pm (B_rem,z ∂v/∂s − B_rem,r/√(2s) ∂v/∂z) ds dz .
+    ∫ ν [ ∂ψ/∂s ∂v/∂s + 1/(2s) ∂ψ/∂z ∂v/∂z ] ds dz
+        = ∫ J v/√(2s) ds dz + ∫ ν_pm (B_rem,z ∂v/∂s − B_rem,r/√(2s) ∂v/∂z) ds dz .
 
 The planar problem is the same with both weights 1. The 2π of revolution is the caller's.
 """

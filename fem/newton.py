@@ -34,8 +34,9 @@ class Convergence:
 
     def sentence(self) -> str:
         """What a person needs to know about a failure."""
+        steps = "one step" if self.iterations == 1 else f"{self.iterations} steps"
         return (
-            f"Newton's iteration ended with status '{self.status}' after {self.iterations} steps "
+            f"Newton's iteration ended with status '{self.status}' after {steps} "
             f"at a relative residual of {self.residual:.2e}."
         )
 

@@ -27,6 +27,9 @@ __all__ = ["file_name", "tessellate", "write_step"]
 PARTS = "parts"
 """Name of the folder that holds a file for each part."""
 
+LONGEST_NAME = 80
+"""Bytes of a file's name, its ending left out."""
+
 Body = tuple[str, Colour, "cadquery.Solid"]
 """Name, colour and solid of a product."""
 
@@ -61,7 +64,9 @@ def write_step(assembly: Assembly, folder: Path) -> list[Path]:
 def file_name(name: str) -> str:
     """The name with everything that some file system or shell minds turned into hyphens: "end cap, rod end" becomes
     "end-cap-rod-end"."""
-    return re.sub(r"[^\w.+]+", "-", name).strip("-.") or "unnamed"
+    safe = re.sub(r"[^\w.+]+", "-", name).strip("-.")
+    # File systems take 255 bytes at most, and a folder's listing reads better with far fewer.
+    return safe.encode()[:LONGEST_NAME].decode(errors="ignore").strip("-.") or "unnamed"
 
 
 def _unlike(names: Sequence[str]) -> list[str]:

@@ -36,7 +36,10 @@ def evaluate(spec: Spec, fidelity: Fidelity = "fem") -> Evaluation:
         common = _common(spec, actuator)
         if fidelity == "network":
             return _by_network(spec, actuator, common)
-        return _by_fem(spec, actuator, common)
+        from fluxbore.fem.threads import one_thread
+
+        with one_thread():
+            return _by_fem(spec, actuator, common)
     except (DesignError, MaterialError) as error:
         return failure(fidelity, INVALID, str(error))
 

@@ -42,7 +42,8 @@ def resolve_limits(spec: Spec, start: Evaluation) -> tuple[Limit, ...]:
                     continue
                 why = " ".join(start.reasons) or "the finite elements do not give it"
                 raise DesignError(
-                    f"study.constraints cannot be held: {constraint.subject} of the start design is not known ({why})."
+                    f"study.constraints cannot be held: {constraint.subject} of the start design is not known. "
+                    f"{why[:1].upper()}{why[1:]}{'' if why.endswith('.') else '.'}"
                 )
             unit = value
         if constraint.lower is not None:

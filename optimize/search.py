@@ -7,6 +7,7 @@ import time
 from collections.abc import Sequence
 
 from fluxbore.design.errors import FluxboreError, SpecError
+from fluxbore.design.performance import FIGURES, show_figure
 from fluxbore.design.spec import Spec
 from fluxbore.optimize import nlopt_loop
 from fluxbore.optimize.archive import Archive, BudgetUsedError
@@ -15,7 +16,7 @@ from fluxbore.optimize.evaluation import failure
 from fluxbore.optimize.evaluator import Evaluate, Evaluator
 from fluxbore.optimize.executor import Executor, SerialExecutor
 from fluxbore.optimize.journal import Journal
-from fluxbore.optimize.outcome import Candidate, SearchResult, SweepResult
+from fluxbore.optimize.outcome import Candidate, Limit, SearchResult, SweepResult
 from fluxbore.optimize.problem import Box, Merit, box, candidate, resolve_limits, violation
 from fluxbore.optimize.progress import Report, Tracker
 from fluxbore.optimize.stages import FIRST_STEP, Stages
@@ -75,7 +76,7 @@ def run_search(
         held=[limit for limit in limits if limit.subject not in bounds.keys],
         back_off=study.search.relative_tolerance / 10,
     )
-    reason = stages.run(first if inside else first[1:], done if inside else done[1:]) + _shortfall(archive)
+    reason = stages.run(first if inside else first[1:], done if inside else done[1:]) + _shortfall(base, archive)
     return SearchResult(
         start=start,
         network_start=network,
@@ -163,7 +164,15 @@ def _bounds(base: Spec) -> Box:
     return box(base, [limit for limit in resolve_limits(base, failure("network", "", "")) if limit.subject in keys])
 
 
-def _shortfall(archive: Archive) -> str:
+def _shown(base: Spec, limit: Limit) -> str:
+    """The limit with its unit."""
+    if limit.subject in FIGURES:
+        return show_figure(limit.subject, limit.limit)
+    key = base.kind.key(limit.subject)
+    return key.show(limit.limit) if key is not None else f"{limit.limit:.6g}"
+
+
+def _shortfall(base: Spec, archive: Archive) -> str:
     """Where no design was feasible: which limits the nearest one missed, and by how much."""
     if archive.best is not None or not archive.history:
         return ""
@@ -171,7 +180,7 @@ def _shortfall(archive: Archive) -> str:
     if math.isinf(violation(nearest)):
         return " None of its designs could be evaluated in full."
     missed = [
-        f"{item.limit.subject} {item.limit.sense} {item.limit.limit:.6g} by {-item.margin:.2%}"
+        f"{item.limit.subject} {item.limit.sense} {_shown(base, item.limit)} by {-item.margin:.2%}"
         for item in nearest.checks
         if not item.satisfied and item.margin is not None
     ]

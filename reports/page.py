@@ -9,7 +9,8 @@ from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from fluxbore.design.errors import FluxboreError
+from fluxbore.design.errors import OutputError
+from fluxbore.optimize.folder import write_atomic
 from fluxbore.reports import curves, flux_picture, section_drawing, story, study_tables, tables
 from fluxbore.reports.content import ReportContent
 from fluxbore.reports.svg import Drawing
@@ -27,17 +28,13 @@ _HERE = Path(__file__).parent
 def write_report(content: ReportContent, path: Path) -> Path:
     """Write the report to ``path`` and return it; an older report stays until the new one is whole.
 
-    Raises FluxboreError where the file cannot be written.
+    Raises OutputError where the file cannot be written.
     """
-    text = render(content)
-    beside = path.with_name(f".{path.name}.part")
     try:
-        beside.write_text(text, encoding="utf-8", newline="\n")
-        beside.replace(path)
+        path.parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        beside.unlink(missing_ok=True)
-        raise FluxboreError(f"{path} cannot be written: {error.strerror or error}.") from error
-    return path
+        raise OutputError(f"{path.parent} cannot be written: {error.strerror or error}.") from error
+    return write_atomic(path, render(content))
 
 
 def render(content: ReportContent) -> str:

@@ -100,6 +100,8 @@ def optimize(
     or no variables.
     """
     spec = _spec(spec)
+    _need(spec.study.objective is not None, "study.objective", "a search")
+    _need(bool(spec.study.variables), "study.variables", "a search")
     with _workshop(spec, folder, workers, force) as (place, journal, executor):
         result = run_search(spec, journal, executor, progress)
         if place is not None:

@@ -9,9 +9,8 @@ from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
 
 from fluxbore.design.keys import Value
-from fluxbore.design.performance import FIGURES
+from fluxbore.design.performance import FIGURES, show_figure
 from fluxbore.design.spec import KINDS, Spec
-from fluxbore.design.units import DIMENSIONS, format_quantity
 from fluxbore.optimize.evaluation import Evaluation, to_plain
 from fluxbore.optimize.outcome import Candidate, Check, SearchResult, SweepResult
 from fluxbore.optimize.progress import Progress
@@ -21,16 +20,6 @@ if TYPE_CHECKING:
 
 SECONDS_BETWEEN_LINES = 5.0
 """Between progress lines where stderr is a file; a terminal gets one line that is written over."""
-
-
-def show_figure(name: str, value: float | None, digits: int = 5) -> str:
-    """A figure in its preferred unit."""
-    if value is None:
-        return "-"
-    figure = FIGURES[name]
-    if figure.dimension in DIMENSIONS:
-        return format_quantity(value, figure.dimension, digits)
-    return f"{value:.{digits}g}" + ("" if figure.si == "1" else f" {figure.si}")
 
 
 def show_key(spec: Spec, name: str, value: Value) -> str:

@@ -174,7 +174,8 @@ def test_the_file_is_written_whole_or_not_at_all(content: ReportContent, tmp_pat
     assert write_report(small, target) == target
     assert [item.name for item in tmp_path.iterdir()] == ["report.html"]
     with pytest.raises(FluxboreError, match="cannot be written"):
-        write_report(small, tmp_path / "missing" / "report.html")
+        write_report(small, target / "below a file" / "report.html")
+    assert write_report(small, tmp_path / "new" / "report.html").exists()
 
 
 def _light(content: ReportContent) -> ReportContent:
