@@ -22,11 +22,18 @@ _UNIT_POINTS, _UNIT_WEIGHTS = (_GAUSS_POINTS + 1) / 2, _GAUSS_WEIGHTS / 2
 
 def circuits(mesh: Mesh, coils: Sequence[CoilWindow]) -> tuple[Circuit, ...]:
     """One circuit for each name among the coils, in order of appearance."""
-    shells = {radii: _within(mesh, radii) for radii in {coil.r for coil in coils}}
-    density = {coil.circuit: np.zeros(mesh.nodes.shape[0]) for coil in coils}
-    for coil in coils:
-        density[coil.circuit] += coil_density(mesh, coil, shells[coil.r])
-    return tuple(Circuit(name, values) for name, values in density.items())
+    names = list(dict.fromkeys(coil.circuit for coil in coils))
+    nodes = mesh.nodes.shape[0]
+    density = np.zeros(len(names) * nodes)
+    for radii in {coil.r for coil in coils}:
+        alike = [coil for coil in coils if coil.r == radii]
+        element, which, integral = _integrals(mesh, radii, np.array([coil.z for coil in alike]))
+        per_area = np.array([coil.turns / coil.area for coil in alike])
+        circuit = np.array([names.index(coil.circuit) for coil in alike])
+        place = circuit[which][:, None] * nodes + mesh.elements[element]
+        share = integral * per_area[which][:, None]
+        density += np.bincount(place.ravel(), share.ravel(), density.size)
+    return tuple(Circuit(name, values) for name, values in zip(names, density.reshape(-1, nodes), strict=True))
 
 
 def flux_linkages(solution: Solution) -> Floats:
@@ -34,27 +41,34 @@ def flux_linkages(solution: Solution) -> Floats:
     return np.array([2 * np.pi * circuit.density @ solution.psi for circuit in solution.problem.circuits])
 
 
-def coil_density(mesh: Mesh, coil: CoilWindow, candidates: Ints | None = None) -> Floats:
-    """(n,) ∫ φ_i (turns/area) dr dz over the window (turns times shape function, dimensionless).
+def coil_density(mesh: Mesh, coil: CoilWindow) -> Floats:
+    """(n,) ∫ φ_i (turns/area) dr dz over one window (turns times shape function, dimensionless)."""
+    return circuits(mesh, (coil,))[0].density
 
-    The window's radii must be mesh lines; its ends may cut elements anywhere. Straight-sided elements only. Each
-    triangle is cut at its middle corner into two slabs in z, each slab is clipped to the window, and a Gauss rule of
-    four by four points in (r, z) integrates the shape functions: on rectangles cut in two, any quadratic function of
-    (s, z) exactly.
 
-    candidates : the elements between the window's radii, where the caller knows them.
+def _integrals(mesh: Mesh, radii: tuple[float, float], windows: Floats) -> tuple[Ints, Ints, Floats]:
+    """∫ φ_i dr dz (m²) over the part of each triangle that lies in each window of one shell.
+
+    radii : of the shell, mesh lines (m). windows : (k, 2) z from and to, anywhere (m). Straight-sided elements only.
+    Returns the element and the window of each pair that overlaps (p,), and the integrals of the six shape functions
+    (p, 6).
+
+    Each triangle is cut at its middle corner into two slabs in z, each slab is clipped to the window, and a Gauss rule
+    of four by four points in (r, z) integrates the shape functions: on rectangles cut in two, any quadratic function
+    of (s, z) exactly.
     """
-    candidates = _within(mesh, coil.r) if candidates is None else candidates
-    triangle = mesh.nodes[mesh.elements[candidates, :3]]
-    heights = triangle[..., 1]
-    overlap = (heights.min(axis=1) < coil.z[1]) & (heights.max(axis=1) > coil.z[0])
-    touched, triangle = candidates[overlap], triangle[overlap]
+    shell = _within(mesh, radii)
+    heights = mesh.nodes[mesh.elements[shell, :3], 1]
+    overlap = (heights.min(axis=1)[:, None] < windows[:, 1]) & (heights.max(axis=1)[:, None] > windows[:, 0])
+    found, which = np.nonzero(overlap)
+    element, (lower, upper) = shell[found], windows[which].T
+    triangle = mesh.nodes[mesh.elements[element, :3]]
     order = np.argsort(triangle[..., 1], axis=1, kind="stable")
     low, middle, high = (np.take_along_axis(triangle, order[:, [k], None], axis=1)[:, 0] for k in range(3))
-    total = np.zeros((touched.size, 6))
+    total = np.zeros((element.size, 6))
     for start, end in ((low, middle), (middle, high)):
-        bottom = np.maximum(start[:, 1], coil.z[0])
-        top = np.minimum(end[:, 1], coil.z[1])
+        bottom = np.maximum(start[:, 1], lower)
+        top = np.minimum(end[:, 1], upper)
         height = np.maximum(top - bottom, 0.0)
         z = bottom[:, None] + height[:, None] * _UNIT_POINTS
         # Along r, where the shape functions are polynomials and dr carries no 1/r: the two triangles of a rectangle
@@ -65,9 +79,8 @@ def coil_density(mesh: Mesh, coil: CoilWindow, candidates: Ints | None = None) -
         weight = (height[:, None] * np.abs(right - left) * _UNIT_WEIGHTS)[..., None] * _UNIT_WEIGHTS
         s = r**2 / 2
         values = shape(_barycentric(triangle, s, np.broadcast_to(z[..., None], s.shape)))
-        total += np.einsum("mab,mabn->mn", weight, values, optimize=True)
-    density = np.bincount(mesh.elements[touched].ravel(), total.ravel(), mesh.nodes.shape[0])
-    return np.asarray(density * coil.turns / coil.area)
+        total += np.einsum("pab,pabn->pn", weight, values, optimize=True)
+    return element, which, total
 
 
 def _within(mesh: Mesh, radii: tuple[float, float]) -> Ints:
