@@ -2,7 +2,7 @@
 
     python benchmarks/fig6.py               median of three runs, with the errors
     python benchmarks/fig6.py --once        one run
-    python benchmarks/fig6.py --reference   write benchmarks/fig6_reference.csv from the mesh refined thrice (minutes)
+    python benchmarks/fig6.py --reference N write benchmarks/fig6_reference.csv from the mesh refined N times (minutes)
 
 24 ring widths and 9 yoke thicknesses, eight positions each, in two processes of one BLAS thread, from the start of the
 first process to the last design; nothing is cached between runs.
@@ -28,9 +28,6 @@ TOP = Path(__file__).resolve().parents[1]
 REFERENCE = TOP / "benchmarks" / "fig6_reference.csv"
 EXAMPLES = ("ipehla-fig6a.toml", "ipehla-fig6b.toml")
 WORKERS = 2
-REFINEMENT = 3
-"""Of the reference: every cell of the default mesh cut into three by three."""
-
 Table = dict[tuple[str, str], float]
 """(example, value of the axis in metres as written) -> force constant (N/A)."""
 
@@ -58,12 +55,14 @@ def table(results: list[SweepResult]) -> Table:
     return found
 
 
-def write_reference(found: Table) -> None:
+def write_reference(found: Table, refinement: int) -> None:
     command = ["git", "-C", str(TOP), "rev-parse", "--short", "HEAD"]
     commit = subprocess.run(command, capture_output=True, text=True, check=False).stdout.strip() or "unknown"
     with REFERENCE.open("w", newline="", encoding="utf-8") as file:
-        file.write(f"# Force constants (N/A) of Fig. 6 at mesh refinement {REFINEMENT}.\n")
-        file.write(f"# python benchmarks/fig6.py --reference, commit {commit}, {datetime.now(UTC):%Y-%m-%d}\n")
+        file.write(f"# Force constants (N/A) of Fig. 6 at mesh refinement {refinement}.\n")
+        file.write(
+            f"# python benchmarks/fig6.py --reference {refinement}, commit {commit}, {datetime.now(UTC):%Y-%m-%d}\n"
+        )
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(("example", "value_m", "force_constant"))
         writer.writerows((*key, f"{force:.9g}") for key, force in found.items())
@@ -92,10 +91,11 @@ def show(found: Table, converged: Table) -> None:
 def main() -> None:
     parser = argparse.ArgumentParser(description="The 264 solves of Fig. 6: seconds and error.")
     parser.add_argument("--once", action="store_true", help="one run instead of the median of three")
-    parser.add_argument("--reference", action="store_true", help="compute and store the converged values")
+    parser.add_argument("--reference", type=int, metavar="N", help="compute and store the values at refinement N")
     arguments = parser.parse_args()
-    if arguments.reference:
-        write_reference(table(run([spec.with_values({"solver.mesh_refinement": REFINEMENT}) for spec in specs()])))
+    if arguments.reference is not None:
+        refined = [spec.with_values({"solver.mesh_refinement": arguments.reference}) for spec in specs()]
+        write_reference(table(run(refined)), arguments.reference)
         return
     if not REFERENCE.exists():
         sys.exit(f"{REFERENCE} is missing; --reference makes it.")

@@ -1,0 +1,106 @@
+"""Rates of convergence, not values: a manufactured smooth field, and the motor with its edges and corners."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from fluxbore.design.spec import load
+from fluxbore.fem.element import QUADRATURE_POINTS, shape
+from fluxbore.fem.field import nodal_flux_density
+from fluxbore.fem.linkage import circuits
+from fluxbore.fem.magnetostatics import Solution, solve
+from fluxbore.fem.mapped import Subdivision, mapped_mesh
+from fluxbore.fem.problem import Circuit, MagneticMaterial, Problem
+from fluxbore.fem.tubular import solve_positions, space_vector
+from fluxbore.geometry.cross_section import Breakpoints, CoilWindow, CrossSection
+from fluxbore.geometry.hybrid import cross_section
+
+RADIUS, LENGTH = 0.1, 0.2
+TOP = RADIUS**2 / 2
+CELLS = (8, 16, 32)
+
+
+def exact(s: np.ndarray, z: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """ψ = sin(πs/S) sin(πz/L), which vanishes on the rim, with ∂ψ/∂s and the load −ψ_ss − ψ_zz/(2s), ν = 1."""
+    a, b = np.pi / TOP, np.pi / LENGTH
+    wave = np.sin(a * s) * np.sin(b * z)
+    return wave, a * np.cos(a * s) * np.sin(b * z), (a**2 + b**2 / (2 * s)) * wave
+
+
+def manufactured(cells: int) -> Solution:
+    """The field of that load on cells by cells rectangles, graded so that no symmetry helps."""
+    section = CrossSection(
+        Breakpoints((0.0, RADIUS), ("r",)), Breakpoints((0.0, LENGTH), ("z",)), (), np.zeros((1, 1), dtype=int), (), (),
+        (0.0, 0.0),
+    )  # fmt: skip
+    division = Subdivision(4, 1.3, "start")
+    mesh = mapped_mesh(section, {"r": division}, {"z": division}, cells // 4).mesh
+    bare = solve(Problem(mesh, (MagneticMaterial(1.0),)))
+    values = shape(QUADRATURE_POINTS)
+    s, z = (np.einsum("mn,qn->mq", mesh.nodes[mesh.elements][..., k], values) for k in (0, 1))
+    shares = np.einsum("mq,qn->mn", exact(s, z)[2] * bare.system.kernel.weight, values)
+    load = np.bincount(mesh.elements.ravel(), shares.ravel(), mesh.nodes.shape[0])
+    return solve(Problem(mesh, (MagneticMaterial(1.0),), (Circuit("source", load, 1.0),)))
+
+
+@pytest.fixture(scope="module")
+def fields() -> list[Solution]:
+    return [manufactured(cells) for cells in CELLS]
+
+
+def rates(errors: list[float]) -> np.ndarray:
+    return np.log2(np.array(errors[:-1]) / np.array(errors[1:]))
+
+
+def test_energy_converges_with_the_fourth_power(fields: list[Solution]) -> None:
+    """Catches a lost order anywhere: element, quadrature, 1/r next to the axis. Asserts a rate of at least 3.8."""
+    x, w = np.polynomial.legendre.leggauss(30)
+    s, z = np.meshgrid(TOP * (x + 1) / 2, LENGTH * (x + 1) / 2)
+    wave, _, load = exact(s, z)
+    true = TOP * LENGTH / 4 * np.einsum("i,j,ij->", w, w, load * wave)
+    errors = [abs(float(field.system.load @ field.psi[field.system.inner]) / true - 1) for field in fields]
+    assert np.all(rates(errors) > 3.8), errors
+
+
+def test_flux_density_converges_alike_on_the_axis_and_beside_it(fields: list[Solution]) -> None:
+    """Catches the axis losing an order, where people look first: recovered B_z has a rate of about two on both."""
+    on_axis, beside = [], []
+    for field in fields:
+        mesh = field.problem.mesh
+        nodes, found = nodal_flux_density(field, np.arange(mesh.elements.shape[0]))
+        s, z = mesh.nodes[nodes].T
+        miss = np.abs(found[:, 1] - exact(np.maximum(s, 1e-30), z)[1]) * TOP / np.pi
+        on_axis.append(float(miss[s == 0].max()))
+        beside.append(float(miss[(s > 0.02 * TOP) & (s < 0.98 * TOP)].max()))
+    assert np.all(rates(on_axis) > 1.7), on_axis
+    assert np.all(rates(beside) > 1.7), beside
+    assert on_axis[-1] < 3 * beside[-1]
+
+
+def test_linkage_of_a_window_converges_fast(fields: list[Solution]) -> None:
+    """Catches a window integral of low order, its ends inside cells: a mean rate of at least 3."""
+    window = CoilWindow("coil", 1.0, (0.0, RADIUS), (0.0437, 0.1113))
+    x, w = np.polynomial.legendre.leggauss(40)
+    r = RADIUS * (x + 1) / 2
+    b = np.pi / LENGTH
+    axial = (np.cos(b * window.z[0]) - np.cos(b * window.z[1])) / b
+    true = RADIUS / 2 * float(w @ np.sin(np.pi * r**2 / 2 / TOP)) * axial / window.area
+    errors = [abs(float(circuits(f.problem.mesh, [window])[0].density @ f.psi) / true - 1) for f in fields]
+    assert rates(errors).mean() > 3, errors
+
+
+def test_motor_force_and_linkage_converge() -> None:
+    """Catches a motor whose meshes do not approach one another: refined again, the change halves at least.
+
+    Magnet edges and iron corners limit the rate; values are in docs/validation/fem.md.
+    """
+    spec = load(Path(__file__).parents[2] / "examples" / "ipehla.toml")
+    found = []
+    for refinement in (1, 2, 3):
+        (item,) = solve_positions(
+            lambda z: cross_section(spec.actuator, z, spec.materials, 293.15), [0.027], None, refinement
+        )
+        found.append([abs(space_vector(item.thrust_constants())), abs(space_vector(item.flux_linkages()))])
+    first, second = np.abs(np.diff(found, axis=0))
+    assert np.all(second < first / 2), found
