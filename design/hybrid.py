@@ -15,7 +15,6 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 from fluxbore.design.errors import DesignError
-from fluxbore.design.keys import Value, Values
 from fluxbore.design.units import format_quantity
 
 PHASES = ("U", "V", "W")
@@ -285,121 +284,6 @@ class HybridActuator:
                 "actuator.end_caps.flange_diameter must exceed actuator.cylinder.outer_diameter "
                 f"{_mm(cylinder.outer_diameter)}; got {_mm(self.end_caps.flange_diameter)}."
             )
-
-
-def resolve(given: Values) -> dict[str, Value]:
-    """Complete the given keys by those that follow from them, so that every key of the table has a value.
-
-    The degrees of freedom of the table's `Alternatives`: two of the yoke's three radial dimensions, two of its three
-    axial ones, one of each other pair. Raises nothing: a combination that cannot be built is `HybridActuator.check`'s.
-    """
-    values = dict(given)
-
-    def number(key: str) -> float:
-        return float(values[key])
-
-    yoke, winding, mover = "actuator.back_yoke.", "actuator.winding.", "actuator.mover."
-    if yoke + "outer_diameter" not in values:
-        values[yoke + "outer_diameter"] = number(yoke + "inner_diameter") + 2 * number(yoke + "thickness")
-    elif yoke + "inner_diameter" not in values:
-        values[yoke + "inner_diameter"] = number(yoke + "outer_diameter") - 2 * number(yoke + "thickness")
-    else:
-        values[yoke + "thickness"] = (number(yoke + "outer_diameter") - number(yoke + "inner_diameter")) / 2
-
-    if mover + "ring_width" not in values:
-        values[mover + "ring_width"] = number(mover + "pole_pitch") - number(mover + "magnet_thickness")
-    else:
-        values[mover + "magnet_thickness"] = number(mover + "pole_pitch") - number(mover + "ring_width")
-
-    coil_width = 2 * number(mover + "pole_pitch") / 3
-    wound = len(PHASES) * number(winding + "sets_per_phase") * coil_width
-    if yoke + "length" not in values:
-        values[yoke + "length"] = wound + number(yoke + "front_overhang") + number(yoke + "back_overhang")
-    elif yoke + "front_overhang" not in values:
-        values[yoke + "front_overhang"] = number(yoke + "length") - wound - number(yoke + "back_overhang")
-    else:
-        values[yoke + "back_overhang"] = number(yoke + "length") - wound - number(yoke + "front_overhang")
-
-    if winding + "outer_diameter" not in values:
-        values[winding + "outer_diameter"] = number(yoke + "inner_diameter") - 2 * number(winding + "yoke_clearance")
-    else:
-        values[winding + "yoke_clearance"] = (number(yoke + "inner_diameter") - number(winding + "outer_diameter")) / 2
-
-    window = coil_width * (number(winding + "outer_diameter") - number("actuator.cylinder.outer_diameter")) / 2
-    room = number(winding + "sets_per_phase") * window
-    if winding + "turns" not in values:
-        values[winding + "turns"] = number(winding + "turns_density") * room
-    else:
-        values[winding + "turns_density"] = number(winding + "turns") / room if room > 0 else math.inf
-    return values
-
-
-def from_values(values: Values) -> HybridActuator:
-    """The actuator that these resolved values describe, checked.
-
-    Raises DesignError where it cannot be built.
-    """
-
-    def number(key: str) -> float:
-        return float(values["actuator." + key])
-
-    def word(key: str) -> str:
-        return str(values["actuator." + key])
-
-    remanence = values.get("actuator.mover.remanence")
-    actuator = HybridActuator(
-        name=word("name"),
-        back_yoke=BackYoke(
-            number("back_yoke.outer_diameter"),
-            number("back_yoke.inner_diameter"),
-            number("back_yoke.front_overhang"),
-            number("back_yoke.back_overhang"),
-            word("back_yoke.material"),
-        ),
-        winding=Winding(
-            number("winding.outer_diameter"),
-            int(number("winding.sets_per_phase")),
-            number("winding.turns"),
-            number("winding.wire_diameter"),
-            word("winding.material"),
-        ),
-        cylinder=Cylinder(
-            number("cylinder.outer_diameter"),
-            number("cylinder.inner_diameter"),
-            number("cylinder.catalogue_bore"),
-            number("cylinder.length"),
-            word("cylinder.material"),
-        ),
-        mover=Mover(
-            number("mover.pole_pitch"),
-            number("mover.ring_width"),
-            int(number("mover.pole_pairs")),
-            number("mover.outer_diameter"),
-            word("mover.magnet"),
-            None if remanence is None else float(remanence),
-            number("mover.magnet_permeability"),
-            word("mover.ring_material"),
-            number("mover.stroke"),
-        ),
-        shaft=Shaft(number("shaft.outer_diameter"), number("shaft.length"), word("shaft.material")),
-        piston=Piston(
-            number("piston.length"),
-            number("piston.fin_outer_diameter"),
-            number("piston.fin_inner_diameter"),
-            number("piston.fin_length"),
-            number("piston.fin_thickness"),
-            word("piston.material"),
-        ),
-        end_caps=EndCaps(
-            number("end_caps.flange_diameter"),
-            number("end_caps.flange_length"),
-            number("end_caps.port_diameter"),
-            number("end_caps.rod_clearance"),
-            word("end_caps.material"),
-        ),
-    )
-    actuator.check()
-    return actuator
 
 
 def _mm(length: float) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fluxbore.design.keys import Alternatives, Key
+from fluxbore.design.materials import Conductor, Material, PermanentMagnet
 
 LARGEST_LENGTH = 10.0
 """m; beyond it a length is a slip of the unit, not an actuator."""
@@ -179,3 +180,15 @@ HYBRID_ALTERNATIVES: tuple[Alternatives, ...] = (
     ),
     Alternatives(("actuator.mover.ring_width", "actuator.mover.magnet_thickness"), 1, "tau_m = tau - tau_f"),
 )
+
+HYBRID_MATERIALS: dict[str, type[Material]] = {
+    "actuator.back_yoke.material": Material,
+    "actuator.winding.material": Conductor,
+    "actuator.cylinder.material": Material,
+    "actuator.mover.magnet": PermanentMagnet,
+    "actuator.mover.ring_material": Material,
+    "actuator.shaft.material": Material,
+    "actuator.piston.material": Material,
+    "actuator.end_caps.material": Material,
+}
+"""Which keys name materials, and the kind of material that each needs."""

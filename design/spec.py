@@ -6,21 +6,20 @@ of a study are the same `Spec` with other values, so that everything downstream 
 
 from __future__ import annotations
 
-import hashlib
-import json
 import tomllib
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, replace
-from functools import cached_property
+from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from fluxbore.design import hybrid, hybrid_keys, materials
+from fluxbore.design import materials
 from fluxbore.design.errors import MaterialError, SpecError, shown
-from fluxbore.design.hybrid import HybridActuator
-from fluxbore.design.keys import Alternatives, Key, Value, Values
+from fluxbore.design.keys import Key, Value
+from fluxbore.design.specification import KINDS, Kind, Note, Spec, suggestion
 from fluxbore.design.study import Study
 from fluxbore.design.study_reader import read_study
+
+__all__ = ["DEEPEST", "KINDS", "LARGEST_FILE", "Kind", "Note", "Spec", "load", "loads"]
 
 LARGEST_FILE = 4_000_000
 """Bytes; a specification is a page, so more than this is some other file."""
@@ -28,129 +27,6 @@ LARGEST_FILE = 4_000_000
 
 DEEPEST = 20
 """Levels of tables and lists; a specification has six."""
-
-
-@dataclass(frozen=True, slots=True)
-class Kind:
-    """A kind of actuator for the reader: its keys, which of them exclude one another, how they become parameters."""
-
-    name: str
-    keys: tuple[Key, ...]
-    alternatives: tuple[Alternatives, ...]
-    resolve: Callable[[Values], dict[str, Value]]
-    from_values: Callable[[Values], HybridActuator]
-
-    def key(self, name: str) -> Key | None:
-        return next((key for key in self.keys if key.name == name), None)
-
-
-KINDS: dict[str, Kind] = {
-    "hybrid": Kind(
-        "hybrid", hybrid_keys.HYBRID_KEYS, hybrid_keys.HYBRID_ALTERNATIVES, hybrid.resolve, hybrid.from_values
-    ),
-}
-"""Every kind of actuator a specification can describe."""
-
-
-@dataclass(frozen=True, slots=True)
-class Note:
-    """Where a value comes from when no source publishes it: ``status`` is "assumed" or "calibrated"."""
-
-    key: str
-    status: str
-    reason: str
-
-
-@dataclass(frozen=True)
-class Spec:
-    """A specification that has been read and checked.
-
-    given : dotted key -> SI value, as the file gives them, defaults included; alternatives not given are absent.
-    materials : the standard library with the file's own materials.
-    own_materials : the file's material tables as they stand in it, so that a design can be written out whole.
-    """
-
-    kind: Kind
-    given: Values
-    study: Study
-    notes: tuple[Note, ...]
-    materials: Mapping[str, materials.Material]
-    own_materials: Mapping[str, Any]
-
-    @cached_property
-    def values(self) -> Mapping[str, Value]:
-        """Every key with its value: the given ones and those that follow from them."""
-        return self.kind.resolve(self.given)
-
-    @cached_property
-    def actuator(self) -> HybridActuator:
-        """The parameters as frozen data. Raises DesignError where they cannot be built."""
-        return self.kind.from_values(self.values)
-
-    @property
-    def positions(self) -> tuple[float, ...]:
-        """The window of positions (m) over which figures are averaged."""
-        first, last = self.number("operating_point.first_position"), self.number("operating_point.last_position")
-        count = int(self.number("operating_point.positions"))
-        if count == 1:
-            return ((first + last) / 2,)
-        return tuple(first + (last - first) * i / (count - 1) for i in range(count))
-
-    def number(self, key: str) -> float:
-        """The SI value of a numeric key."""
-        return float(self.values[key])
-
-    def word(self, key: str) -> str:
-        return str(self.values[key])
-
-    def with_values(self, changes: Values) -> Spec:
-        """The same specification with other values at some keys, each checked against its key's limits.
-
-        A changed key takes the place of an alternative that was given; see `pinned`. Raises SpecError.
-        """
-        base = self.pinned(changes)
-        for name, value in changes.items():
-            _known(self.kind, name).check(value)
-        return replace(base, given={**base.given, **changes})
-
-    def pinned(self, keys: Iterable[str]) -> Spec:
-        """The same design, given by these keys where they are alternatives of others.
-
-        Pinning ``turns_density`` replaces a given ``turns`` by the density that it amounts to, so that the density
-        stays when the winding's height changes.
-        """
-        wanted = set(keys)
-        given = dict(self.given)
-        for group in self.kind.alternatives:
-            chosen = [key for key in group.keys if key in wanted]
-            if not chosen or all(key in given for key in chosen):
-                continue
-            if len(chosen) > group.count:
-                raise SpecError(
-                    f"The study is over-determined: at most {group.count} of {', '.join(group.keys)} can be held or "
-                    f"varied ({group.rule}); got {', '.join(chosen)}."
-                )
-            kept = [key for key in group.keys if key in given and key not in wanted]
-            stay = chosen + kept[: group.count - len(chosen)]
-            for key in group.keys:
-                given.pop(key, None)
-            given.update({key: self.values[key] for key in stay})
-        return replace(self, given=given)
-
-    def for_study(self) -> Spec:
-        """The start design as the study sees it: its held keys and variables are the ones that are given."""
-        return self.pinned((*self.study.hold, *(variable.key for variable in self.study.variables)))
-
-    def fingerprint(self) -> str:
-        """SHA-256 over everything that decides the result: values, materials and the study."""
-        content = {
-            "kind": self.kind.name,
-            "given": dict(sorted(self.given.items())),
-            # As read, not as written: a B-H table in a file of its own counts by its contents.
-            "materials": {name: repr(self.materials[name]) for name in sorted(self.own_materials)},
-            "study": repr(self.study),
-        }
-        return hashlib.sha256(json.dumps(content, sort_keys=True, default=str).encode()).hexdigest()
 
 
 def load(path: Path | str, overrides: Mapping[str, str] | None = None) -> Spec:
@@ -235,7 +111,7 @@ def _read(raw: Mapping[str, Any], kind: Kind, base: Path) -> Spec:
     sections = {"actuator", "operating_point", "solver", "study", "materials"}
     for section, content in raw.items():
         if section not in sections:
-            hint = _suggestion(section, [key.section for key in kind.keys])
+            hint = suggestion(section, [key.section for key in kind.keys])
             raise SpecError(
                 f"{section} is not a section of a specification, which has {', '.join(sorted(sections))}{hint}."
             )
@@ -263,7 +139,8 @@ def _read(raw: Mapping[str, Any], kind: Kind, base: Path) -> Spec:
         given[key.name] = key.default
     spec = Spec(kind, given, Study(), tuple(notes), library, own)
     _check_materials(spec)
-    _check_window(spec)
+    if kind.check is not None:
+        kind.check(spec.values)
     study = read_study(raw.get("study", {}), kind.keys, kind.alternatives, spec.values)
     spec = replace(spec, study=study)
     _check_study(spec)
@@ -280,7 +157,7 @@ def _check_study(spec: Spec) -> None:
         name = constraint.subject
         if constraint.relative_to_start or name in moving or name not in base.given:
             continue
-        value, show = base.number(name), _known(spec.kind, name).show
+        value, show = base.number(name), spec.kind.known(name).show
         for limit, word, missed in (
             (constraint.lower, "at least", constraint.lower is not None and value < constraint.lower),
             (constraint.upper, "at most", constraint.upper is not None and value > constraint.upper),
@@ -307,7 +184,7 @@ def _flatten(
                 _flatten(raw, name, known, given, notes)
                 continue
             names = {key.section for key in known.values()} if isinstance(raw, dict) else known
-            raise SpecError(f"{name} is not a key of this specification{_suggestion(name, names)}.")
+            raise SpecError(f"{name} is not a key of this specification{suggestion(name, names)}.")
         if isinstance(raw, dict):
             raw = _annotated(name, raw, notes)
         given[name] = key.read(raw)
@@ -326,66 +203,13 @@ def _annotated(name: str, raw: Mapping[str, Any], notes: list[Note]) -> Any:
 
 
 def _check_materials(spec: Spec) -> None:
-    for key in spec.kind.keys:
-        role = MATERIAL_ROLES.get(key.name)
-        if role is not None:
-            found = materials.lookup(spec.word(key.name), key.name, spec.materials, role)
-            if role is materials.Material and isinstance(found, materials.PermanentMagnet):
-                raise MaterialError(
-                    f"{key.name} must name a material without magnetisation of its own; "
-                    f"got {shown(found.name)}, a permanent magnet."
-                )
-
-
-MATERIAL_ROLES: dict[str, type[materials.Material] | None] = {
-    "actuator.back_yoke.material": materials.Material,
-    "actuator.winding.material": materials.Conductor,
-    "actuator.cylinder.material": materials.Material,
-    "actuator.mover.magnet": materials.PermanentMagnet,
-    "actuator.mover.ring_material": materials.Material,
-    "actuator.shaft.material": materials.Material,
-    "actuator.piston.material": materials.Material,
-    "actuator.end_caps.material": materials.Material,
-}
-"""Which keys name materials, and what kind of material each needs."""
-
-
-def _check_window(spec: Spec) -> None:
-    actuator = spec.actuator
-    half = actuator.mover.stroke / 2
-    low, high = actuator.mid_stroke - half, actuator.mid_stroke + half
-    slack = 1e-9
-    for key in ("operating_point.first_position", "operating_point.last_position"):
-        value = spec.number(key)
-        if not low - slack <= value <= high + slack:
-            shown = _known(spec.kind, key).show
-            raise SpecError(f"{key} must lie within the stroke, {shown(low)} to {shown(high)}; got {shown(value)}.")
-    if spec.number("operating_point.last_position") < spec.number("operating_point.first_position"):
-        shown = _known(spec.kind, "operating_point.last_position").show
-        raise SpecError(
-            "operating_point.last_position must not be below operating_point.first_position "
-            f"{shown(spec.number('operating_point.first_position'))}; "
-            f"got {shown(spec.number('operating_point.last_position'))}."
-        )
-
-
-def _known(kind: Kind, name: str) -> Key:
-    key = kind.key(name)
-    if key is None:
-        raise SpecError(f"{name} is not a key of this specification{_suggestion(name, [k.name for k in kind.keys])}.")
-    return key
-
-
-def _suggestion(name: str, known: Iterable[str]) -> str:
-    """A hint at the nearest key; difflib is imported only on this path, for the sake of start-up."""
-    import difflib
-
-    if len(name) > 100:  # difflib takes its time
-        return ""
-    known = list(dict.fromkeys(known))
-    leaf = name.rpartition(".")[2]
-    near = [key for key in known if key.endswith("." + leaf)] or difflib.get_close_matches(name, known, n=1, cutoff=0.7)
-    return f" (did you mean {near[0]}?)" if near else ""
+    for key, role in spec.kind.materials.items():
+        found = materials.lookup(spec.word(key), key, spec.materials, role)
+        if role is materials.Material and isinstance(found, materials.PermanentMagnet):
+            raise MaterialError(
+                f"{key} must name a material without magnetisation of its own; "
+                f"got {shown(found.name)}, a permanent magnet."
+            )
 
 
 def _override(raw: dict[str, Any], key: str, text: str, kind: Kind) -> None:

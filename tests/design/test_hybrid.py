@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fluxbore.design.errors import DesignError
-from fluxbore.design.hybrid import resolve
+from fluxbore.design.hybrid_values import resolve
 from fluxbore.design.spec import loads
 from fluxbore.design.spec_file import template
 
