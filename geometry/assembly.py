@@ -52,6 +52,7 @@ class Part:
 
     group : "stator" or "mover". role : what it is, the same word for all alike ("coil").
     profile : counter-clockwise, r >= 0 (m). note : what a name does not say, such as the direction of magnetisation.
+    fill : share of the volume that is the material; a coil is drawn as its whole window.
     """
 
     name: str
@@ -62,6 +63,7 @@ class Part:
     profile: Profile
     holes: tuple[Hole, ...] = ()
     note: str = ""
+    fill: float = 1.0
 
     def __post_init__(self) -> None:
         if not is_simple(self.profile):
@@ -105,8 +107,8 @@ def volume(part: Part) -> float:
 
 
 def mass(part: Part, density: float) -> float:
-    """Mass (kg) at this density (kg/m^3)."""
-    return density * volume(part)
+    """Mass (kg) of the part's material at this density (kg/m^3)."""
+    return density * part.fill * volume(part)
 
 
 def centre_of_mass(part: Part) -> tuple[float, float, float]:

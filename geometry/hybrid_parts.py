@@ -17,6 +17,7 @@ import math
 from fluxbore.design.errors import DesignError
 from fluxbore.design.hybrid import PHASES, HybridActuator
 from fluxbore.design.units import format_quantity
+from fluxbore.design.winding import copper_fill
 from fluxbore.geometry.assembly import Assembly, Colour, Hole, Part, Profile, rectangle
 
 THINNEST = 1e-5
@@ -95,13 +96,14 @@ def _coils(actuator: HybridActuator) -> list[Part]:
     inner, outer = actuator.cylinder.outer_diameter / 2, actuator.winding.outer_diameter / 2
     digits = len(str(actuator.coils))
     faces = [actuator.winding_start + i * actuator.coil_width for i in range(actuator.coils + 1)]
+    fill = copper_fill(actuator)  # enamel and resin have no mass here
     parts = []
     for i in range(actuator.coils):
         phase = PHASES[i % len(PHASES)]
         name, note = f"coil {i + 1:0{digits}d} {phase}", f"phase {phase}, {actuator.turns_per_coil:g} turns"
         profile = rectangle(inner, outer, faces[i], faces[i + 1])
         material, colour = actuator.winding.material, COLOURS[f"coil {phase}"]
-        parts.append(Part(name, "coil", "stator", material, colour, profile, note=note))
+        parts.append(Part(name, "coil", "stator", material, colour, profile, note=note, fill=fill))
     return parts
 
 

@@ -5,10 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from fluxbore.design.hybrid import HybridActuator
 from fluxbore.design.materials import Material
-from fluxbore.design.winding import copper_fill
-from fluxbore.geometry.assembly import Assembly, Part, volume
+from fluxbore.geometry.assembly import Assembly, Part, mass, volume
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,20 +18,9 @@ class PartMass:
     mass: float
 
 
-def part_masses(
-    assembly: Assembly, actuator: HybridActuator, materials: Mapping[str, Material]
-) -> tuple[PartMass, ...]:
-    """Every part with its volume and mass, in the assembly's order.
-
-    A coil is drawn as its whole window, of which only the copper's share has mass: enamel and resin are left out.
-    """
-    fill = copper_fill(actuator)
-    rows = []
-    for part in assembly.parts:
-        space = volume(part)
-        solid = space * fill if part.role == "coil" else space
-        rows.append(PartMass(part, space, solid * materials[part.material].density))
-    return tuple(rows)
+def part_masses(assembly: Assembly, materials: Mapping[str, Material]) -> tuple[PartMass, ...]:
+    """Every part with its volume and mass, in the assembly's order."""
+    return tuple(PartMass(part, volume(part), mass(part, materials[part.material].density)) for part in assembly.parts)
 
 
 def total(rows: tuple[PartMass, ...], group: str | None = None) -> float:

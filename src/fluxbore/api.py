@@ -7,6 +7,7 @@ from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from fluxbore.actuators import actuator_of
 from fluxbore.design import spec as spec_module
 from fluxbore.design.errors import FluxboreError, SpecError
 from fluxbore.design.spec import Spec
@@ -116,12 +117,10 @@ def export(spec: Spec | Path | str, folder: Path | str) -> list[Path]:
 
     Raises MissingLibraryError where cadquery or libGL is missing, with the line that installs it.
     """
-    from fluxbore.geometry.hybrid_parts import assembly
     from fluxbore.geometry.step import write_step
 
     spec = _spec(spec)
-    actuator = spec.actuator
-    return write_step(assembly(actuator, actuator.mid_stroke), Path(folder))
+    return write_step(actuator_of(spec).assembly(spec), Path(folder))
 
 
 def report(
@@ -238,13 +237,13 @@ def _write_report(
     seconds: float | None,
 ) -> Path:
     from fluxbore import report_content as gather
-    from fluxbore.geometry.hybrid_parts import assembly
     from fluxbore.reports.content import Picture, ReportContent
     from fluxbore.reports.page import write_report
 
     final = findings.spec
     studied = findings.search is not None and findings.search.chosen is not None
-    parts = assembly(final.actuator, final.actuator.mid_stroke)
+    views = actuator_of(final)
+    parts = views.assembly(final)
     start = findings.search.start.evaluation if findings.search is not None else findings.evaluation
     content = ReportContent(
         spec=spec,
@@ -256,10 +255,10 @@ def _write_report(
         search=findings.search,
         sweeps=findings.sweeps,
         one_at_a_time=separate,
-        flux_map=gather.flux_map(final) if findings.evaluation.ok else None,
-        start_flux_map=gather.flux_map(spec) if studied and start.ok else None,
-        slots=gather.slot_comparison(final),
-        parts=gather.part_rows(final),
+        flux_map=views.flux_map(final) if views.flux_map is not None and findings.evaluation.ok else None,
+        start_flux_map=views.flux_map(spec) if views.flux_map is not None and studied and start.ok else None,
+        slots=views.slots(final) if views.slots is not None else None,
+        parts=gather.part_rows(final, parts),
         assembly=parts,
         picture=gather.picture(parts) if picture else Picture(None, "No picture was asked for."),
         checked=gather.checked(parts),

@@ -155,8 +155,8 @@ def _path(text: str) -> str:
 
 
 def _load(options: argparse.Namespace) -> Spec:
+    from fluxbore.actuators import actuator_of
     from fluxbore.design.spec import load
-    from fluxbore.geometry.hybrid_parts import assembly
 
     overrides = {}
     for item in options.set:
@@ -166,7 +166,7 @@ def _load(options: argparse.Namespace) -> Spec:
         overrides[key.strip()] = value.strip()
     spec = load(options.spec, overrides)
     # Parts that overlap in the drawing alone are wrong input too; a study's designs are judged one by one instead.
-    assembly(spec.actuator, spec.actuator.mid_stroke)
+    actuator_of(spec).assembly(spec)
     return spec
 
 

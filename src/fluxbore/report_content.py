@@ -9,18 +9,15 @@ from importlib.metadata import PackageNotFoundError, version
 from typing import TYPE_CHECKING
 
 from fluxbore import __version__
-from fluxbore.design.errors import MaterialError, MissingLibraryError
-from fluxbore.design.magnetic_network import Slots, cylinder_insertion
+from fluxbore.design.errors import MissingLibraryError
 from fluxbore.design.spec import Spec
 from fluxbore.geometry.assembly import Assembly, interferences
-from fluxbore.geometry.hybrid_parts import assembly
 from fluxbore.geometry.mass import PartMass, part_masses
 from fluxbore.optimize.design_key import source_hash
-from fluxbore.optimize.evaluate import solve_window
 from fluxbore.optimize.evaluation import Evaluation
 
 if TYPE_CHECKING:
-    from fluxbore.reports.content import FluxMap, PartRow, Picture, SlotComparison
+    from fluxbore.reports.content import PartRow, Picture
 
 NOT_CHECKED = (
     "Heat: the continuous current and the winding's temperature under load.",
@@ -32,22 +29,6 @@ NOT_CHECKED = (
     "Anything that is not rotationally symmetric: lead wires, eccentricity, ports in the field.",
 )
 """What this version of the program does not look at; the report says so."""
-
-
-def flux_map(spec: Spec) -> FluxMap:
-    """The design's field at no current in the middle of its window, with the parts' outlines."""
-    import numpy as np
-
-    from fluxbore.fem.field import flux_map as field_map
-    from fluxbore.reports.content import FluxMap
-
-    position = spec.positions[len(spec.positions) // 2]
-    solved = solve_window(spec, (position,))[0]
-    field = field_map(solved.solution)
-    boxes = [(item.region.name, item.r, item.z) for item in solved.section.rectangles]
-    boxes += [(f"coil {coil.circuit}", coil.r, coil.z) for coil in solved.section.coils]
-    outlines = tuple((name, np.array([(r[0], z[0]), (r[1], z[0]), (r[1], z[1]), (r[0], z[1])])) for name, r, z in boxes)
-    return FluxMap(field.r, field.z, field.triangles, field.flux, field.flux_density, outlines, position, field.region)
 
 
 def picture(parts: Assembly) -> Picture:
@@ -63,13 +44,12 @@ def picture(parts: Assembly) -> Picture:
     return render_picture(meshes)
 
 
-def part_rows(spec: Spec) -> tuple[PartRow, ...]:
+def part_rows(spec: Spec, parts: Assembly) -> tuple[PartRow, ...]:
     """The parts list; parts that differ by their place alone share a line."""
     from fluxbore.reports.content import PartRow
 
-    actuator = spec.actuator
     alike: dict[tuple[object, ...], list[PartMass]] = {}
-    for row in part_masses(assembly(actuator, actuator.mid_stroke), actuator, spec.materials):
+    for row in part_masses(parts, spec.materials):
         key = (row.part.role, row.part.group, row.part.material, _size(row), f"{row.volume:.9e}")
         alike.setdefault(key, []).append(row)
     rows = []
@@ -86,24 +66,6 @@ def _size(row: PartMass) -> str:
     bore = f" / \N{LATIN CAPITAL LETTER O WITH STROKE}{2e3 * min(radii):.5g}" if min(radii) > 0 else ""
     length = (max(heights) - min(heights)) * 1e3
     return f"\N{LATIN CAPITAL LETTER O WITH STROKE}{2e3 * max(radii):.5g}{bore} \N{MULTIPLICATION SIGN} {length:.5g} mm"
-
-
-def slot_comparison(spec: Spec) -> SlotComparison | None:
-    """Equation (2) for a slotted and a slotless stator while the cylinder's wall grows; None where it fails."""
-    from fluxbore.reports.content import SlotComparison
-
-    slots = Slots()
-    try:
-        found = cylinder_insertion(
-            spec.actuator, spec.materials, spec.number("operating_point.magnet_temperature"), slots
-        )
-    except MaterialError:
-        return None
-    note = (
-        "Equation (2) at the electric loading of one ampere, the same for both. Slots of "
-        f"{slots.opening * 1e3:g} mm every {slots.pitch * 1e3:g} mm are assumed: the paper gives none."
-    )
-    return SlotComparison(found.walls, found.slotted, found.slotless, note)
 
 
 def checked(parts: Assembly) -> tuple[str, ...]:

@@ -1,0 +1,38 @@
+"""The table of actuators: what each kind offers beyond its figures."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from fluxbore import hybrid_views
+from fluxbore.design.spec import Spec
+from fluxbore.geometry.assembly import Assembly
+
+if TYPE_CHECKING:
+    from fluxbore.reports.content import FluxMap, SlotComparison
+
+
+@dataclass(frozen=True, slots=True)
+class Actuator:
+    """The verbs of one kind of actuator.
+
+    assembly : its parts where they stand in the middle of the stroke. flux_map : its field at no current, for a
+    picture. slots : the slotted-slotless comparison. Views that a kind does not have are None.
+    """
+
+    assembly: Callable[[Spec], Assembly]
+    flux_map: Callable[[Spec], FluxMap] | None = None
+    slots: Callable[[Spec], SlotComparison | None] | None = None
+
+
+ACTUATORS: dict[str, Actuator] = {
+    "hybrid": Actuator(hybrid_views.assembly, hybrid_views.flux_map, hybrid_views.slot_comparison),
+}
+"""Every kind of actuator by its name in the specification."""
+
+
+def actuator_of(spec: Spec) -> Actuator:
+    """The verbs of the specification's kind."""
+    return ACTUATORS[spec.kind.name]
