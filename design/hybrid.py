@@ -70,7 +70,7 @@ class Mover:
     outer_diameter: float  # D_m
     magnet: str
     remanence: float | None  # B_r at 20 degC; None takes the grade's
-    magnet_permeability: float  # mu_r of the recoil line
+    magnet_permeability: float | None  # mu_r of the recoil line; None takes the grade's
     ring_material: str
     stroke: float  # L_mr
 

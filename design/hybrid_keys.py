@@ -65,12 +65,12 @@ HYBRID_KEYS: tuple[Key, ...] = (
     ),
     Key(
         "actuator.mover.magnet_permeability",
-        "relative recoil permeability of the magnets",
+        "relative recoil permeability of the magnets; without it the grade's",
         kind="number",
         symbol="mu_r",
         minimum=1.0,
         maximum=10.0,
-        default=1.05,
+        optional=True,
     ),
     _material("mover.ring_material", "soft iron of the rings"),
     _length("mover.stroke", "L_mr", "stroke length"),
@@ -192,3 +192,6 @@ HYBRID_MATERIALS: dict[str, type[Material]] = {
     "actuator.end_caps.material": Material,
 }
 """Which keys name materials, and the kind of material that each needs."""
+
+HYBRID_NON_MAGNETIC = frozenset({"actuator.piston.material", "actuator.end_caps.material"})
+"""Parts that the field model takes for air."""

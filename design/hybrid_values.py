@@ -83,6 +83,7 @@ def from_values(values: Values) -> HybridActuator:
         return str(values["actuator." + key])
 
     remanence = values.get("actuator.mover.remanence")
+    permeability = values.get("actuator.mover.magnet_permeability")
     actuator = HybridActuator(
         name=word("name"),
         back_yoke=BackYoke(
@@ -113,7 +114,7 @@ def from_values(values: Values) -> HybridActuator:
             number("mover.outer_diameter"),
             word("mover.magnet"),
             None if remanence is None else float(remanence),
-            number("mover.magnet_permeability"),
+            None if permeability is None else float(permeability),
             word("mover.ring_material"),
             number("mover.stroke"),
         ),

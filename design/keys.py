@@ -166,8 +166,3 @@ def _finite(number: float) -> bool:
         return math.isfinite(number)
     except OverflowError:
         return False
-
-
-def preferred_unit(key: Key) -> str:
-    """The unit that stands behind this key's numbers in files and tables; empty without one."""
-    return DIMENSIONS[key.dimension].preferred if key.kind == "quantity" else ""

@@ -110,7 +110,7 @@ def network(
     else:
         k_c = carter_coefficient(air_gap, slots.opening, slots.pitch)
         gap = k_c * air_gap
-    return _solved(actuator, *_magnetics(actuator, library, temperature), air_gap, gap, k_c)
+    return _solved(actuator, _magnetics(actuator, library, temperature), air_gap, gap, k_c)
 
 
 @dataclass(frozen=True, slots=True)
@@ -147,27 +147,25 @@ def cylinder_insertion(
     for wall in walls:
         gap = clearance + wall
         k_c = carter_coefficient(gap, slots.opening, slots.pitch)
-        slotted.append(_solved(actuator, *magnetics, gap, k_c * gap, k_c).force_constant)
+        slotted.append(_solved(actuator, magnetics, gap, k_c * gap, k_c).force_constant)
         layers = (actuator.air_gap - wall) + wall + outside  # air, wall, winding with its clearance
-        slotless.append(_solved(actuator, *magnetics, actuator.air_gap, layers, 1.0).force_constant)
+        slotless.append(_solved(actuator, magnetics, actuator.air_gap, layers, 1.0).force_constant)
     return CylinderInsertion(walls, tuple(slotted), tuple(slotless))
 
 
-def _solved(
-    actuator: HybridActuator, remanence: float, shaft_permeability: float, air_gap: float, gap: float, k_c: float
-) -> MagneticNetwork:
-    """Equations (1) and (2) for an air gap g_ac (m) and an effective gap (m), with B_r in T; D_c = D_m + 2 g_ac."""
+def _solved(actuator: HybridActuator, magnetics: _Magnetics, air_gap: float, gap: float, k_c: float) -> MagneticNetwork:
+    """Equations (1) and (2) for an air gap g_ac (m) and an effective gap (m); D_c = D_m + 2 g_ac."""
     mover = actuator.mover
     tau, tau_f, tau_m = mover.pole_pitch, mover.ring_width, actuator.magnet_thickness
     D_m, D_s, D_c = mover.outer_diameter, actuator.shaft.outer_diameter, mover.outer_diameter + 2 * air_gap
-    mu_m = MU_0 * mover.magnet_permeability
+    mu_m = MU_0 * magnetics.recoil_permeability
     height = tau_f + 2 * air_gap
     magnet_area = math.pi / 4 * (D_m**2 - D_s**2)
 
-    F_rem = remanence * tau_m / mu_m
+    F_rem = magnetics.remanence * tau_m / mu_m
     R_m = tau_m / (mu_m * magnet_area)
     R_g = math.log1p(2 * gap / D_m) / (2 * math.pi * MU_0 * height)
-    R_shaft = tau_m / (MU_0 * shaft_permeability * math.pi / 4 * D_s**2)
+    R_shaft = tau_m / (MU_0 * magnetics.shaft_permeability * math.pi / 4 * D_s**2)
     free = tau_m - 2 * air_gap
     free = (free + math.hypot(free, OVERLAP_ROUNDING * tau)) / 2
     R_gap_leakage = tau_m**2 / (MU_0 * free * math.pi / 4 * (D_c**2 - D_m**2))
@@ -204,8 +202,17 @@ def _solved(
     )
 
 
-def _magnetics(actuator: HybridActuator, library: Library, temperature: float) -> tuple[float, float]:
-    """B_r (T) at the temperature (K), and the shaft's relative permeability, once the other parts fit the picture."""
+@dataclass(frozen=True, slots=True)
+class _Magnetics:
+    """What the network needs of the materials: B_r (T) at temperature and relative permeabilities."""
+
+    remanence: float
+    recoil_permeability: float
+    shaft_permeability: float
+
+
+def _magnetics(actuator: HybridActuator, library: Library, temperature: float) -> _Magnetics:
+    """The materials' figures at a temperature (K), once all parts fit the network's picture."""
     magnet = lookup(actuator.mover.magnet, "actuator.mover.magnet", library, PermanentMagnet)
     for key, name in (
         ("actuator.back_yoke.material", actuator.back_yoke.material),
@@ -222,4 +229,8 @@ def _magnetics(actuator: HybridActuator, library: Library, temperature: float) -
             f'{key} must be non-magnetic for the magnetic network, which takes it as part of the air gap; got "{name}".'
         )
     shaft = lookup(actuator.shaft.material, "actuator.shaft.material", library, Material)
-    return magnet.remanence_at(temperature, actuator.mover.remanence), shaft.relative_permeability
+    return _Magnetics(
+        magnet.remanence_at(temperature, actuator.mover.remanence),
+        magnet.recoil(actuator.mover.magnet_permeability),
+        shaft.relative_permeability,
+    )

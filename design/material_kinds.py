@@ -78,6 +78,10 @@ class PermanentMagnet(Material):
         """
         return self._scaled(self.intrinsic_coercivity, self.coercivity_coefficient, temperature, "coercivity")
 
+    def recoil(self, measured: float | None = None) -> float:
+        """mu_r of the recoil line: a measured one in place of the grade's."""
+        return self.recoil_permeability if measured is None else measured
+
     def _scaled(self, base: float, coefficient: float, temperature: float, what: str) -> float:
         factor = 1.0 + coefficient * (temperature - ROOM_TEMPERATURE)
         if not factor > 0.0:

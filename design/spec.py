@@ -210,6 +210,11 @@ def _check_materials(spec: Spec) -> None:
                 f"{key} must name a material without magnetisation of its own; "
                 f"got {shown(found.name)}, a permanent magnet."
             )
+        if key in spec.kind.non_magnetic and found.curve is not None:
+            raise MaterialError(
+                f"{key} must name a non-magnetic material, as the field model takes it for air; "
+                f"got {shown(found.name)}, a soft iron."
+            )
 
 
 def _override(raw: dict[str, Any], key: str, text: str, kind: Kind) -> None:

@@ -23,7 +23,7 @@ class Kind:
 
     keys, alternatives : what may be given, and which of it excludes one another. resolve, from_values : how given
     values become all values, and those the parameters. materials : key -> the kind of material it must name.
-    check : of the resolved values, beyond what the parameters themselves refuse; raises SpecError.
+    non_magnetic : keys that must not name a soft iron. check : of the resolved values, beyond what the parameters themselves refuse; raises SpecError.
     """
 
     name: str
@@ -32,6 +32,7 @@ class Kind:
     resolve: Callable[[Values], dict[str, Value]]
     from_values: Callable[[Values], HybridActuator]
     materials: Mapping[str, type[Material]] = field(default_factory=dict)
+    non_magnetic: frozenset[str] = frozenset()
     check: Callable[[Values], None] | None = None
 
     def key(self, name: str) -> Key | None:
@@ -54,6 +55,7 @@ KINDS: dict[str, Kind] = {
         hybrid_values.resolve,
         hybrid_values.from_values,
         hybrid_keys.HYBRID_MATERIALS,
+        hybrid_keys.HYBRID_NON_MAGNETIC,
         hybrid_values.check_window,
     ),
 }
@@ -119,7 +121,9 @@ class Spec:
         base = self.pinned(changes)
         for name, value in changes.items():
             self.kind.known(name).check(value)
-        return replace(base, given={**base.given, **changes})
+        # A value that a study chose is no longer the assumed one.
+        notes = tuple(note for note in base.notes if note.key not in changes)
+        return replace(base, given={**base.given, **changes}, notes=notes)
 
     def pinned(self, keys: Iterable[str]) -> Spec:
         """The same design, given by these keys where they are alternatives of others.

@@ -164,12 +164,6 @@ def format_quantity(value: float, dimension: str, digits: int = 15) -> str:
     return f"{(value - unit.offset) / unit.factor:.{digits}g} {table.preferred}"
 
 
-def in_preferred_unit(value: float, dimension: str) -> float:
-    """The number that stands before the preferred unit."""
-    unit = DIMENSIONS[dimension].units[DIMENSIONS[dimension].preferred]
-    return (value - unit.offset) / unit.factor
-
-
 def quantity_pattern(dimension: str) -> str:
     """The regular expression (ECMA 262) that a JSON Schema uses for this dimension."""
     units = "|".join(re.escape(unit).replace("\\ ", f"{_SPACE}+") for unit in DIMENSIONS[dimension].units)

@@ -52,12 +52,12 @@ def electric_loading(actuator: HybridActuator, current: float) -> float:
     """K_sp (A/m): the peak of the travelling current sheet's fundamental, for a phase amplitude in amperes.
 
     One phase is a current sheet of n I / tau_w over a width tau_w in each period 2 tau (n turns a coil, all wound the
-    same way). Its fundamental has the amplitude (2/pi) sin(pi tau_w / 2 tau) n I / tau_w, and three phases in balance
-    make a wave of 3/2 of that. In the scheme of Bianchi et al. (2003), IEEE Trans. Ind. Appl. 39, 466.
+    same way). Its fundamental has the amplitude (2/pi) sin(pi tau_w / 2 tau) n I / tau_w, which is the winding factor
+    times n I / tau, and three phases in balance make a wave of 3/2 of that. In the scheme of Bianchi et al. (2003), IEEE
+    Trans. Ind. Appl. 39, 466.
     """
-    half_angle = math.pi * actuator.coil_width / (2 * actuator.mover.pole_pitch)
     sheet = actuator.turns_per_coil / actuator.coil_width * current
-    return 1.5 * (2 / math.pi) * math.sin(half_angle) * sheet
+    return 1.5 * actuator.coil_width / actuator.mover.pole_pitch * winding_factor(actuator) * sheet
 
 
 def copper_volume(actuator: HybridActuator) -> float:

@@ -38,7 +38,7 @@ class Pattern:
     rows, columns : (nnz,) of the lower triangle, sorted by column, then by row.
     sources : (k,) flat index into all element matrices (m, 6, 6) of the entries that count.
     targets : (k,) index into (nnz,) for each source.
-    owners : (k,) the element of each source.
+    owners : (k,) the element of each source. block : entries of one element's matrix.
     """
 
     unknowns: int
@@ -47,6 +47,7 @@ class Pattern:
     sources: Ints
     targets: Ints
     owners: Ints
+    block: int
 
     @classmethod
     def of_elements(cls, freedom: Ints, unknowns: int) -> Pattern:
@@ -57,7 +58,7 @@ class Pattern:
         kept = np.flatnonzero((column >= 0) & (row >= column))
         code = column[kept] * unknowns + row[kept]
         unique, targets = np.unique(code, return_inverse=True)
-        return cls(unknowns, unique % unknowns, unique // unknowns, kept, targets.ravel(), kept // (k * k))
+        return cls(unknowns, unique % unknowns, unique // unknowns, kept, targets.ravel(), kept // (k * k), k * k)
 
     @property
     def nonzeros(self) -> int:
@@ -73,8 +74,8 @@ class Pattern:
         place = np.full(max(size, int(elements.max(initial=-1)) + 1), -1)
         place[elements] = np.arange(elements.size)
         chosen = np.flatnonzero(place[self.owners] >= 0)
-        block = self.sources[chosen] % 36
-        return place[self.owners[chosen]] * 36 + block, self.targets[chosen]
+        block = self.sources[chosen] % self.block
+        return place[self.owners[chosen]] * self.block + block, self.targets[chosen]
 
     @cached_property
     def bandwidth(self) -> int:

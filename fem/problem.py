@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from fluxbore.fem.mesh import Floats, Mesh
 from fluxbore.fem.reluctivity import VACUUM_RELUCTIVITY, ReluctivityCurve
 
@@ -45,8 +43,3 @@ class Problem:
     mesh: Mesh
     materials: tuple[MagneticMaterial, ...]
     circuits: tuple[Circuit, ...] = ()
-
-    def material_of_elements(self, attribute: str) -> Floats:
-        """(m, ...) an attribute of each element's material."""
-        values = np.array([getattr(material, attribute) for material in self.materials])
-        return np.asarray(values[self.mesh.region])

@@ -12,14 +12,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
-from math import pi
 
 import numpy as np
 
-from fluxbore.design.bh_curve import BHCurve
+from fluxbore.design.bh_curve import MU_0, BHCurve
 from fluxbore.fem.mesh import Floats
 
-VACUUM_PERMEABILITY = 4e-7 * pi
+VACUUM_PERMEABILITY = MU_0
 """H/m. The pre-2019 exact value: it differs from CODATA 2018 by 5e-10, and FEMM uses it too."""
 
 VACUUM_RELUCTIVITY = 1 / VACUUM_PERMEABILITY

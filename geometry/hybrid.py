@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from itertools import pairwise
 
-from fluxbore.design.errors import DesignError
 from fluxbore.design.hybrid import PHASES, HybridActuator
 from fluxbore.design.materials import Material, PermanentMagnet, SoftIron
 from fluxbore.geometry.cross_section import CoilWindow, CrossSection, Rectangle, Region, breakpoints, paint
@@ -26,11 +25,7 @@ def cross_section(
     """Rectangles of the machine with its magnet array's cap-side face at ``position`` (m).
 
     Winding, cylinder, pistons and end caps count as air unless the cylinder is soft iron; coils are windows.
-    Raises DesignError where pistons or end caps are magnetic, which this model does not cover.
     """
-    for key, name in (("piston", actuator.piston.material), ("end_caps", actuator.end_caps.material)):
-        if isinstance(materials[name], SoftIron):
-            raise DesignError(f'actuator.{key}.material must not be magnetic for the field model; got "{name}".')
     far = FAR_DIAMETERS * actuator.back_yoke.outer_diameter
     radii = [
         0.0,
@@ -109,7 +104,7 @@ def _mover(
         if i < actuator.magnets:
             # The first magnet points to the rod end: its sign only fixes which current direction is positive.
             signed = remanence if i % 2 == 0 else -remanence
-            region = Region(f"magnet {i + 1}", magnet, signed, mover.magnet_permeability)
+            region = Region(f"magnet {i + 1}", magnet, signed, magnet.recoil(mover.magnet_permeability))
             rectangles.append(Rectangle(region, r, (end, centre + mover.pole_pitch - mover.ring_width / 2)))
     return rectangles
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from fluxbore.design.errors import DesignError, MaterialError
+from fluxbore.design.errors import DesignError, MaterialError, SpecError
 from fluxbore.design.spec import Spec
 from fluxbore.optimize import hybrid_figures
-from fluxbore.optimize.evaluation import INVALID, Evaluation, Fidelity, failure
+from fluxbore.optimize.evaluation import FAILED, INVALID, Evaluation, Fidelity, failure
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,11 +32,18 @@ def evaluate(spec: Spec, fidelity: Fidelity = "fem") -> Evaluation:
     """
     model = MODELS[spec.kind.name]
     try:
+        if spec.kind.check is not None:
+            spec.kind.check(spec.values)
         if fidelity == "network":
             return model.network(spec)
         from fluxbore.fem.threads import one_thread
 
         with one_thread():
             return model.fem(spec)
-    except (DesignError, MaterialError) as error:
+    except (SpecError, DesignError, MaterialError) as error:
         return failure(fidelity, INVALID, str(error))
+    except (ArithmeticError, MemoryError) as error:
+        # What no check foresaw: a result of this design, not of the program.
+        return failure(
+            fidelity, FAILED, f"The evaluation stopped with {type(error).__name__}: {error or 'no reason given'}."
+        )

@@ -10,7 +10,6 @@ from typing import Any, Literal
 from fluxbore.design.performance import Performance, from_mapping, to_mapping
 
 Fidelity = Literal["network", "fem"]
-FIDELITIES: tuple[Fidelity, ...] = ("network", "fem")
 
 OK = "ok"
 """The status of a design whose figures can be trusted."""
@@ -52,6 +51,7 @@ class Evaluation:
     status : `OK`, or why there are no figures; ``reasons`` are whole sentences.
     positions : the window's positions, empty for the network.
     details : further figures of the route by name (SI), such as the network's reluctances or the mesh's size.
+    warnings : whole sentences on what a sound design's reader must know, such as a magnet that is too hot.
     """
 
     fidelity: Fidelity
@@ -60,6 +60,7 @@ class Evaluation:
     performance: Performance
     positions: tuple[PositionResult, ...] = ()
     details: Mapping[str, float] | None = None
+    warnings: tuple[str, ...] = ()
 
     @property
     def ok(self) -> bool:
@@ -77,6 +78,7 @@ def to_plain(evaluation: Evaluation) -> dict[str, Any]:
         "fidelity": evaluation.fidelity,
         "status": evaluation.status,
         "reasons": list(evaluation.reasons),
+        "warnings": list(evaluation.warnings),
         "performance": {name: _finite(value) for name, value in to_mapping(evaluation.performance).items()},
         "positions": [asdict(position) for position in evaluation.positions],
         "details": {name: _finite(value) for name, value in (evaluation.details or {}).items()},
@@ -102,6 +104,7 @@ def from_plain(plain: Mapping[str, Any]) -> Evaluation:
         from_mapping(plain["performance"]),
         positions,
         plain["details"],
+        tuple(plain["warnings"]),
     )
 
 

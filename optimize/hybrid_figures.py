@@ -14,12 +14,16 @@ from fluxbore.design.hybrid import HybridActuator
 from fluxbore.design.materials import Conductor, PermanentMagnet, lookup
 from fluxbore.design.performance import Performance
 from fluxbore.design.spec import Spec
+from fluxbore.design.units import format_quantity
 from fluxbore.geometry.hybrid_parts import assembly
 from fluxbore.geometry.mass import envelope, part_masses, total
 from fluxbore.optimize.evaluation import NOT_CONVERGED, OK, Evaluation, PositionResult, failure
 
 if TYPE_CHECKING:
     from fluxbore.fem.tubular import TubularSolution
+
+NOTABLE_FRACTION = 0.01
+"""Of the magnets' volume; the field at their sharp edges against the rings always takes a little less than that."""
 
 STRAY_OVERHANG = 0.02
 """m before and beyond the yoke over which the stray field is read."""
@@ -69,7 +73,7 @@ def by_network(spec: Spec) -> Evaluation:
         "leakage_reluctance": solved.leakage_reluctance,
         "effective_gap": solved.effective_gap,
     }
-    return Evaluation("network", OK, (), performance, details=details)
+    return Evaluation("network", OK, (), performance, details=details, warnings=_warnings(spec, performance))
 
 
 def solve_window(spec: Spec, positions: tuple[float, ...] | None = None) -> list[TubularSolution]:
@@ -119,7 +123,27 @@ def by_fem(spec: Spec) -> Evaluation:
         "newton_iterations": float(sum(item.iterations for item in positions)),
         "largest_residual": max(item.residual for item in positions),
     }
-    return Evaluation("fem", OK, (), performance, positions, details)
+    return Evaluation("fem", OK, (), performance, positions, details, _warnings(spec, performance))
+
+
+def _warnings(spec: Spec, performance: Performance) -> tuple[str, ...]:
+    """What a sound field does not say by itself: magnets beyond their temperature or their coercivity."""
+    grade = lookup(spec.actuator.mover.magnet, "actuator.mover.magnet", spec.materials, PermanentMagnet)
+    temperature = spec.number("operating_point.magnet_temperature")
+    found = []
+    if grade.working_temperature is not None and temperature > grade.working_temperature:
+        found.append(
+            f"operating_point.magnet_temperature should not exceed the working temperature of {grade.name}, "
+            f"{format_quantity(grade.working_temperature, 'temperature', 4)}; it is "
+            f"{format_quantity(temperature, 'temperature', 4)}."
+        )
+    fraction = performance.demagnetised_fraction
+    if fraction is not None and fraction > NOTABLE_FRACTION:
+        found.append(
+            f"At this temperature {fraction:.1%} of the magnets' volume is beyond its intrinsic coercivity at no "
+            "current; the figures take it as still magnetised."
+        )
+    return tuple(found)
 
 
 def _position(solved: TubularSolution, pole_pitch: float) -> PositionResult:

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from fluxbore.design.errors import OutputError
+from fluxbore.design.magnetic_network import UPPER_BOUND
 from fluxbore.optimize.folder import write_atomic
 from fluxbore.reports import curves, flux_picture, section_drawing, story, study_tables, tables
 from fluxbore.reports.content import ReportContent
@@ -94,7 +95,9 @@ def _context(content: ReportContent) -> Mapping[str, Any]:
         "force_text": [text for text in (story.routes(sound), story.ripple(sound)) if text] if sound else [],
         "positions": tables.positions(sound) if sound else None,
         "comparison": tables.comparison(content),
-        "upper_bound": story.UPPER_BOUND if content.design_network is not None else "",
+        "upper_bound": "The network's force constant is equation (2) of Nakata and Noda (2023). " + UPPER_BOUND
+        if content.design_network is not None
+        else "",
         "slots": curves.slot_curve(content.slots) if content.slots is not None else None,
         "slots_note": content.slots.note if content.slots is not None else "",
         "parts": tables.parts(content.parts),

@@ -20,15 +20,6 @@ from fluxbore.reports.wording import (
     subject_scale,
 )
 
-UPPER_BOUND = (
-    "The force constant of the network is equation (2) of Nakata and Noda (2023), an upper bound. It takes the iron as "
-    "infinitely permeable, so that no ring or yoke saturates; it lets the whole flux of a pole cross the gap radially, "
-    "as a flat block of width τ_f + 2 g_ac, where in truth it leaks from magnet to magnet, and more so in the wide gap "
-    "of a slotless winding; and it puts the winding as a sinusoidal current sheet on its inner diameter, where the "
-    "field is strongest. Finite elements assume none of these."
-)
-"""Why the network exceeds the finite elements."""
-
 
 def asked(spec: Spec) -> tuple[str, ...]:
     """The requirement in words, one sentence each; a study without an objective asks for less."""

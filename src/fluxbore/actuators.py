@@ -23,7 +23,7 @@ class Actuator:
     """
 
     assembly: Callable[[Spec], Assembly]
-    flux_map: Callable[[Spec], FluxMap] | None = None
+    flux_map: Callable[[Spec], FluxMap | None] | None = None
     slots: Callable[[Spec], SlotComparison | None] | None = None
 
 

@@ -20,16 +20,21 @@ def assembly(spec: Spec) -> Assembly:
     return hybrid_parts.assembly(actuator, actuator.mid_stroke)
 
 
-def flux_map(spec: Spec) -> FluxMap:
-    """The design's field at no current in the middle of its window, with the parts' outlines."""
+def flux_map(spec: Spec) -> FluxMap | None:
+    """The design's field at no current in the middle of its window, with the parts' outlines; None unless it
+    converges."""
     import numpy as np
 
     from fluxbore.fem.field import flux_map as field_map
+    from fluxbore.fem.threads import one_thread
     from fluxbore.optimize.hybrid_figures import solve_window
     from fluxbore.reports.content import FluxMap
 
     position = spec.positions[len(spec.positions) // 2]
-    solved = solve_window(spec, (position,))[0]
+    with one_thread():
+        solved = solve_window(spec, (position,))[0]
+    if not solved.convergence.converged:
+        return None
     field = field_map(solved.solution)
     boxes = [(item.region.name, item.r, item.z) for item in solved.section.rectangles]
     boxes += [(f"coil {coil.circuit}", coil.r, coil.z) for coil in solved.section.coils]

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from fluxbore.design.errors import SpecError, one_line, shown
 from fluxbore.design.hybrid_keys import HYBRID_ALTERNATIVES, HYBRID_KEYS
-from fluxbore.design.keys import LONGEST_WORD, Alternatives, Key, preferred_unit, toml_string
+from fluxbore.design.keys import LONGEST_WORD, Alternatives, Key, toml_string
 
 WIDTH = Key("a.width", "", above=0.0, maximum=1.0)
 COUNT = Key("a.count", "", kind="integer", minimum=1, maximum=9)
@@ -152,4 +152,3 @@ def test_the_table_of_the_hybrid_is_consistent():
         assert key.section + "." + key.leaf == key.name
         if key.default is not None:
             key.check(key.default)
-        assert (preferred_unit(key) != "") == (key.kind == "quantity")

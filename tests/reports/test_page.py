@@ -130,7 +130,7 @@ def test_two_renderings_are_equal(content: ReportContent, page: str) -> None:
         "published optimum 1.5",
         "“no interaction effects were considered”",
         "COBYLA ended because",
-        "an upper bound",
+        "An upper bound",
         "Slotted and slotless",
         "calibrated",
         "The field did not converge in 60 steps.",
@@ -254,7 +254,7 @@ def _flat_density(content: ReportContent) -> ReportContent:
     [
         (_bare, "No evaluation by finite elements"),
         (_evaluation_only, "Evaluate the design of the specification"),
-        (_network_only, "an upper bound"),
+        (_network_only, "An upper bound"),
         (_sweep_only, "published optimum 0.4"),
         (_failed_start, "The specified design has no figures (not converged)"),
         (_failed_choice, "The chosen design has no figures (not converged)"),
