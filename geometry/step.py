@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import os
 import re
+import shutil
 import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -18,14 +19,12 @@ from fluxbore.design.errors import OutputError
 from fluxbore.design.units import format_quantity
 from fluxbore.geometry.assembly import Assembly, Colour
 from fluxbore.geometry.solid import solid, tessellate
+from fluxbore.geometry.step_files import NEW, OLD, PARTS, is_own, own_files, remove_stale, scratch_prefix
 
 if TYPE_CHECKING:
     import cadquery
 
 __all__ = ["file_name", "tessellate", "write_step"]
-
-PARTS = "parts"
-"""Name of the folder that holds a file for each part."""
 
 LONGEST_NAME = 80
 """Bytes of a file's name, its ending left out."""
@@ -37,8 +36,9 @@ Body = tuple[str, Colour, "cadquery.Solid"]
 def write_step(assembly: Assembly, folder: Path) -> list[Path]:
     """Write ``<name>.step`` and ``parts/<part>.step`` into the folder; return the paths, the assembly's first.
 
-    In an existing folder, ``parts`` is replaced as a whole, so that it never mixes two designs; other files stay.
-    Raises OutputError where the folder cannot be written, and then leaves what was there before.
+    An existing folder never mixes two designs: STEP files of fluxbore's own that this design does not have are
+    removed, an assembly of another name among them. Other files stay. Raises OutputError where the folder cannot be
+    written, and then leaves what was there before.
     """
     bodies = [(part.group, (part.name, part.colour, solid(part))) for part in assembly.parts]
     groups = {group: [body for of, body in bodies if of == group] for group in dict.fromkeys(of for of, _ in bodies)}
@@ -47,14 +47,20 @@ def write_step(assembly: Assembly, folder: Path) -> list[Path]:
     try:
         beside = folder if folder.is_dir() else folder.absolute().parent
         beside.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryDirectory(prefix=".step-", dir=beside) as scratch:
-            new = Path(scratch) / "new"
+        for place in (folder, folder.absolute().parent):
+            remove_stale(place)
+        with tempfile.TemporaryDirectory(prefix=scratch_prefix(), dir=beside) as scratch:
+            new = Path(scratch) / NEW
             (new / PARTS).mkdir(parents=True)
             position = format_quantity(assembly.position, "length", 6)
             _write(new / whole, _tree(assembly.name, groups), f"{assembly.name}, mover at {position}")
             for piece, part, (_, body) in zip(pieces, assembly.parts, bodies, strict=True):
                 _write(new / PARTS / piece, _single(body), f"{part.name} of {assembly.name}, {part.material}")
-            _move(new, folder, whole, Path(scratch) / "old")
+            _keep_others(folder / PARTS, new / PARTS)
+            _move(new, folder, whole, Path(scratch) / OLD)
+        for path in own_files(folder):
+            if path.name != whole:
+                path.unlink()
     except OSError as error:
         reason = error.strerror or "the CAD kernel could not write"
         raise OutputError(f'"{folder}" must be a folder that can be written; got: {reason}.') from error
@@ -77,6 +83,17 @@ def _unlike(names: Sequence[str]) -> list[str]:
         seen[name] = seen.get(name, 0) + 1
         result.append(name if seen[name] == 1 else f"{name}-{seen[name]}")
     return result
+
+
+def _keep_others(before: Path, after: Path) -> None:
+    """Copy what is not fluxbore's own from the old folder to the new one; the old one is still whole when it fails."""
+    for path in before.iterdir() if before.is_dir() else ():
+        if is_own(path) or (after / path.name).exists():
+            continue
+        if path.is_dir() and not path.is_symlink():
+            shutil.copytree(path, after / path.name, symlinks=True)
+        else:
+            shutil.copy2(path, after / path.name, follow_symlinks=False)
 
 
 def _move(new: Path, folder: Path, whole: str, old: Path) -> None:

@@ -54,6 +54,8 @@ class Evaluator:
     def design(self, values: Mapping[str, Value]) -> Spec:
         """The design with these values. Raises SpecError or DesignError where there is no such design."""
         spec = self.base.with_values(values)
+        if spec.kind.check is not None:
+            spec.kind.check(spec.values)
         spec.actuator  # noqa: B018  built here, so that what cannot be built never goes to a worker
         return spec
 
@@ -65,16 +67,10 @@ class Evaluator:
         """
         waiting: dict[str, list[int]] = {}
         for index, values in enumerate(designs):
-            try:
-                spec = self.design(values)
-            except Exception as error:
-                yield Evaluated(index, _unbuilt(self.fidelity, error), False)
-                continue
-            key = design_key(spec, self.fidelity, self.evaluate)
-            known = self.journal.get(key) if self.journal is not None else None
+            key, known = self._look_up(values)
             if known is not None:
-                yield Evaluated(index, known, True)
-            else:
+                yield Evaluated(index, known, key is not None)
+            elif key is not None:
                 waiting.setdefault(key, []).append(index)
         keys = list(waiting)
         # The designs are built a second time, one by one as workers ask for them: a grid of a million fits in memory.
@@ -92,6 +88,19 @@ class Evaluator:
     def all(self, designs: Sequence[Mapping[str, Value]]) -> list[Evaluated]:
         """As `each`, in the order of the designs."""
         return sorted(self.each(designs), key=lambda item: item.index)
+
+    def known(self, values: Mapping[str, Value]) -> Evaluation | None:
+        """What can be said of the design without computing it: its record, or why it cannot be built."""
+        return self._look_up(values)[1]
+
+    def _look_up(self, values: Mapping[str, Value]) -> tuple[str | None, Evaluation | None]:
+        """The design's key, None where it cannot be built, and what is `known` of it."""
+        try:
+            spec = self.design(values)
+        except Exception as error:
+            return None, _unbuilt(self.fidelity, error)
+        key = design_key(spec, self.fidelity, self.evaluate)
+        return key, self.journal.get(key) if self.journal is not None else None
 
 
 def _evaluate(task: tuple[Spec, Fidelity, Any]) -> Evaluation:

@@ -6,8 +6,10 @@ Each worker has a pipe of its own, so that the parent always knows which task a 
 
 from __future__ import annotations
 
+import math
 import os
 import pickle
+import time
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
@@ -23,6 +25,9 @@ R = TypeVar("R")
 
 ATTEMPTS = 2
 """A task whose worker dies is tried once more, alone: what killed the worker may have been its neighbour's memory."""
+
+TIME_LIMIT = 1800.0
+"""s for one task: hundreds of times what a design takes, so that only what hangs meets it."""
 
 _START_FAILURES = 3
 
@@ -57,11 +62,16 @@ class Executor(Protocol):
     ) -> None: ...
 
 
-def local_executor(workers: int | None = None, *, in_process: bool = False) -> Executor:
-    """Processes on this machine, as many as it has cores; or this very process, where nothing can crash alone."""
+def local_executor(
+    workers: int | None = None, *, in_process: bool = False, time_limit: float | None = TIME_LIMIT
+) -> Executor:
+    """Processes on this machine, as many as it has cores; or this very process, where nothing can crash alone.
+
+    time_limit : seconds for one task, None for any time; this very process has none.
+    """
     if in_process:
         return SerialExecutor()
-    return ProcessExecutor(available_cores() if workers is None else workers)
+    return ProcessExecutor(available_cores() if workers is None else workers, time_limit)
 
 
 def available_cores() -> int:
@@ -105,15 +115,20 @@ class _Job:
     index: int
     message: bytes
     crashes: int = 0
+    deadline: float = math.inf
 
 
 class ProcessExecutor:
-    """Up to ``workers`` processes, started when first needed and kept until `close`."""
+    """Up to ``workers`` processes, started when first needed and kept until `close`.
 
-    def __init__(self, workers: int) -> None:
+    time_limit : seconds after which a task is given up and its process killed.
+    """
+
+    def __init__(self, workers: int, time_limit: float | None = TIME_LIMIT) -> None:
         if workers < 1:
             raise FluxboreError(f"workers must be at least 1; got {workers}.")
         self._workers = workers
+        self._time_limit = math.inf if time_limit is None else time_limit
         self._idle: list[Worker] = []
         self._start_failures = 0
 
@@ -151,11 +166,13 @@ class ProcessExecutor:
                 done = [
                     outcome for worker in self._answered(busy) for outcome in self._take(worker, busy, again, suspects)
                 ]
+                done += self._overdue(busy)
         finally:
             for worker in busy:
                 worker.kill()
 
     def _hand_out(self, job: _Job, busy: dict[Worker, _Job], main: bool) -> None:
+        job.deadline = time.monotonic() + self._time_limit
         while self._idle:
             worker = self._idle.pop()
             if worker.send(job.message):
@@ -169,8 +186,19 @@ class ProcessExecutor:
     def _answered(self, busy: dict[Worker, _Job]) -> list[Worker]:
         from multiprocessing.connection import wait
 
-        ready = set(wait([worker.connection for worker in busy]))
+        deadline = min(job.deadline for job in busy.values())
+        patience = None if math.isinf(deadline) else max(deadline - time.monotonic(), 0.0)
+        ready = set(wait([worker.connection for worker in busy], patience))
         return [worker for worker in busy if worker.connection in ready]
+
+    def _overdue(self, busy: dict[Worker, _Job]) -> list[Outcome[Any]]:
+        """Give up what is beyond its time; an answer that has come in the meantime is taken all the same."""
+        now = time.monotonic()
+        late = [worker for worker, job in busy.items() if job.deadline <= now and not worker.connection.poll()]
+        for worker in late:
+            worker.kill()
+        words = f"The evaluation took longer than its time limit of {self._time_limit:g} s."
+        return [Outcome(busy.pop(worker).index, None, words) for worker in late]
 
     def _take(
         self, worker: Worker, busy: dict[Worker, _Job], again: deque[_Job], suspects: deque[_Job]
@@ -178,6 +206,7 @@ class ProcessExecutor:
         answer = worker.receive()
         if answer is not None and answer[0] == READY:
             self._start_failures = 0
+            busy[worker].deadline = time.monotonic() + self._time_limit  # starting up is not the task's time
             return
         job = busy.pop(worker)
         if answer is not None:

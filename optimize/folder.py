@@ -8,28 +8,36 @@ import os
 from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
+from types import TracebackType
+from typing import Self
 
 from fluxbore.design.errors import OutputError
+from fluxbore.design.process import may_run
 from fluxbore.design.spec import Spec
+from fluxbore.geometry import step_files
+from fluxbore.optimize.journal import Journal
 
 MARKER = ".fluxbore.json"
 JOURNAL = "journal.jsonl"
 OUTPUTS = ("results.csv", "design.toml", "report.html")
 """Results at the folder's top that belong to one specification; those of another one do not stay beside them."""
 
+CAD = "cad"
+"""The folder of the STEP files, which belong to one specification as the `OUTPUTS` do."""
+
 _PARTIAL = ".partial"
 
 
 @dataclass(frozen=True, slots=True)
 class Folder:
-    """An output folder that is ours to write. ``resumed`` where the same specification was at work in it before."""
+    """An output folder that is ours to write, until its journal is closed. Use it as a context manager.
+
+    resumed : whether the same specification was at work in it before.
+    """
 
     path: Path
     resumed: bool
-
-    @property
-    def journal(self) -> Path:
-        return self.path / JOURNAL
+    journal: Journal
 
     def write(self, name: str, content: str | bytes) -> Path:
         """`write_atomic` of a file in this folder, or in a folder below it that is made where it is missing."""
@@ -40,41 +48,74 @@ class Folder:
             raise OutputError(f"{target.parent} cannot be written: {error.strerror or error}.") from error
         return write_atomic(target, content)
 
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.journal.close()
+
 
 def open_folder(path: Path | str, spec: Spec, force: bool = False) -> Folder:
     """Take the folder for this specification's results; make it where there is none.
 
-    Raises OutputError where the path is a file or cannot be written and, without ``force``, where the folder holds
-    files of somebody else's or another specification's results. With ``force`` only our own outputs are replaced; no
-    other file is touched.
+    Raises OutputError where the path is a file or cannot be written, where another run is at work in the folder and,
+    without ``force``, where it holds files of somebody else's or another specification's results; then everything is
+    as it was. With ``force`` only our own outputs are replaced; no other file is touched.
     """
     path = Path(path)
-    fingerprint = spec.fingerprint()
-    if path.exists() and not path.is_dir():
-        raise OutputError(f"{path} must be a folder to write the results in; it is a file.")
     try:
-        path.mkdir(parents=True, exist_ok=True)
-        names = {entry.name for entry in path.iterdir()}
+        if path.exists() and not path.is_dir():
+            raise OutputError(f"{path} must be a folder to write the results in; it is a file.")
+        made = [folder for folder in (path, *path.parents) if not folder.exists()]
+        try:
+            path.mkdir(parents=True, exist_ok=True)
+            return _take(path, spec.fingerprint(), force)
+        except BaseException:
+            for folder in made:
+                with contextlib.suppress(OSError):  # not made after all, or no longer empty
+                    folder.rmdir()
+            raise
     except OSError as error:
         raise OutputError(f"{path} cannot be written: {error.strerror or error}.") from error
-    before = _fingerprint(path / MARKER)
+
+
+def _take(path: Path, fingerprint: str, force: bool) -> Folder:
+    """Lock first, then judge whose the folder is, then clear away what does not belong in it, then mark it."""
+    journal = Journal(path / JOURNAL, read=False)
+    try:
+        names = {entry.name for entry in path.iterdir()}
+        before = _fingerprint(path / MARKER)
+        resumed = before == fingerprint
+        if not resumed and not force:
+            _refuse_others(path, names, before)
+        journal.read()
+        if before is not None and not resumed:
+            for name in OUTPUTS:
+                _remove(path / name)
+            step_files.remove_own(path / CAD)
+        for name in names:
+            if _is_partial(name) and not _alive(name):
+                _remove(path / name)
+        content = {"fluxbore": _version(), "specification": fingerprint}
+        # Written anew when resuming too: it shows at once whether the folder can be written.
+        write_atomic(path / MARKER, json.dumps(content, indent=1) + "\n")
+    except BaseException:
+        journal.discard()
+        raise
+    return Folder(path, resumed, journal)
+
+
+def _refuse_others(path: Path, names: set[str], before: str | None) -> None:
+    """Raise OutputError where the folder is not free. An empty journal is what a kill leaves before the marker."""
     foreign = {name for name in names if not (name == MARKER or _is_partial(name))}
-    resumed = before == fingerprint
-    if not resumed and not force and (before is not None or foreign):
-        whose = "the results of another specification" if before is not None else f"other files, such as {min(foreign)}"
-        raise OutputError(
-            f"{path} must be empty or hold results of this specification; it holds {whose} (see --force)."
-        )
-    if before is not None and not resumed:
-        for name in OUTPUTS:
-            _remove(path / name)
-    for name in names:
-        if _is_partial(name) and not _alive(name):
-            _remove(path / name)
-    content = {"fluxbore": _version(), "specification": fingerprint}
-    # Written anew when resuming too: it shows at once whether the folder can be written.
-    write_atomic(path / MARKER, json.dumps(content, indent=1) + "\n")
-    return Folder(path, resumed)
+    if JOURNAL in foreign and (path / JOURNAL).stat().st_size == 0:
+        foreign.remove(JOURNAL)
+    if before is None and not foreign:
+        return
+    whose = "the results of another specification" if before is not None else f"other files, such as {min(foreign)}"
+    raise OutputError(f"{path} must be empty or hold results of this specification; it holds {whose} (see --force).")
 
 
 def write_atomic(path: Path | str, content: str | bytes) -> Path:
@@ -115,15 +156,7 @@ def _writer(name: str) -> int | None:
 def _alive(name: str) -> bool:
     """Whether the process that wrote this partial file may still be at it."""
     process = _writer(name)
-    if process is None or os.name != "posix":  # elsewhere signal 0 would end the process
-        return True
-    try:
-        os.kill(process, 0)
-    except ProcessLookupError:
-        return False
-    except (OSError, OverflowError):
-        return True
-    return process != os.getpid()
+    return process is None or (may_run(process) and process != os.getpid())
 
 
 def _fingerprint(marker: Path) -> str | None:

@@ -6,6 +6,7 @@ costs at most the record in flight. What the kill tore off is found and cut away
 
 from __future__ import annotations
 
+import contextlib
 import json
 import math
 import os
@@ -21,27 +22,34 @@ from fluxbore.optimize.evaluation import FAILED, Evaluation, from_plain, to_plai
 class Journal:
     """The open journal of one folder; its single writer. Use it as a context manager.
 
+    made : whether the file did not exist before.
+
     Only the place of each record is kept in memory, not the record, so that a long study stays small.
     """
 
-    def __init__(self, path: Path | str) -> None:
-        """Open or create the file. OutputError where it cannot be written or another run holds it."""
+    def __init__(self, path: Path | str, *, read: bool = True) -> None:
+        """Open or create the file. OutputError where it cannot be written or another run holds it.
+
+        read : without it the file is locked and not touched, until `read` or `discard` is called.
+        """
         self.path = Path(path)
         self._places: dict[str, tuple[int, int]] = {}
-        flags = os.O_RDWR | os.O_CREAT | os.O_APPEND | getattr(os, "O_BINARY", 0)
         try:
-            self._file = os.open(self.path, flags, 0o666)
+            self._file, self.made = _open_locked(self.path)
         except OSError as error:
             raise OutputError(f"{self.path} cannot be written: {error.strerror or error}.") from error
+        if read:
+            self.read()
+
+    def read(self) -> None:
+        """Index the records and mend a torn end. Closes the file and raises OutputError where it cannot be read."""
         try:
-            _lock(self._file, self.path)
-            self._read()
+            self._index()
             _sync_folder(self.path.parent)
-        except OSError as error:
-            os.close(self._file)
-            raise OutputError(f"{self.path} cannot be read: {error.strerror or error}.") from error
-        except BaseException:
-            os.close(self._file)
+        except BaseException as error:
+            self.close()
+            if isinstance(error, OSError):
+                raise OutputError(f"{self.path} cannot be read: {error.strerror or error}.") from error
             raise
 
     def __len__(self) -> int:
@@ -56,7 +64,8 @@ class Journal:
         place = self._places.get(key)
         if place is None:
             return None
-        return _evaluation(_record(self._bytes(*place)) or {})
+        record = _record(self._bytes(*place))
+        return None if record is None else record[1]
 
     def put(self, key: str, kind: str, values: Mapping[str, Any], evaluation: Evaluation) -> Evaluation:
         """Record one design on the disk; returns the evaluation exactly as `get` will give it.
@@ -86,6 +95,13 @@ class Journal:
             os.close(self._file)
             self._file = -1
 
+    def discard(self) -> None:
+        """Close; the file goes again where this opening made it and nothing stands in it."""
+        if self._file >= 0 and self.made and os.fstat(self._file).st_size == 0:
+            with contextlib.suppress(OSError):  # some systems keep a file that is open
+                self.path.unlink()
+        self.close()
+
     def __enter__(self) -> Self:
         return self
 
@@ -94,15 +110,15 @@ class Journal:
     ) -> None:
         self.close()
 
-    def _read(self) -> None:
+    def _index(self) -> None:
         """Index the records; cut off a torn last line. A line that is damaged otherwise is passed over."""
         begin = 0
         with open(self._file, "rb", closefd=False) as file:
             for line in file:
                 record = _record(line)
                 whole = line.endswith(b"\n")
-                if record is not None and record["evaluation"]["status"] != FAILED:
-                    self._places[record["key"]] = (begin, len(line))
+                if record is not None and record[1].status != FAILED:
+                    self._places[record[0]] = (begin, len(line))
                 if not whole and record is not None:
                     os.write(self._file, b"\n")  # only the line's end was torn off
                 elif not whole:
@@ -115,14 +131,14 @@ class Journal:
             return file.read(length)
 
 
-def _record(line: bytes) -> dict[str, Any] | None:
-    """The record that a line holds, or None where it holds none. No proper prefix of a JSON object is one."""
+def _record(line: bytes) -> tuple[str, Evaluation] | None:
+    """Key and evaluation that a line holds, or None where it holds none. No proper prefix of a JSON object is one."""
     try:
         record = json.loads(line)
-        status, key = record["evaluation"]["status"], record["key"]
-        return record if isinstance(status, str) and isinstance(key, str) else None
-    except (ValueError, TypeError, KeyError, RecursionError):
+        key, evaluation = record["key"], _evaluation(record)
+    except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
         return None
+    return (key, evaluation) if isinstance(key, str) and isinstance(evaluation.status, str) else None
 
 
 def _evaluation(record: Mapping[str, Any]) -> Evaluation:
@@ -145,6 +161,29 @@ def _strict(value: Any) -> Any:
     if isinstance(value, (list, tuple)):
         return [_strict(item) for item in value]
     return _strict(value.item()) if hasattr(value, "item") else value  # numpy's numbers are Python's here
+
+
+def _open_locked(path: Path) -> tuple[int, bool]:
+    """The open file with its lock, and whether it was made just now."""
+    while True:
+        made = not path.exists()
+        file = os.open(path, os.O_RDWR | os.O_CREAT | os.O_APPEND | getattr(os, "O_BINARY", 0), 0o666)
+        try:
+            _lock(file, path)
+            if os.name != "posix" or _stands_at(file, path):
+                return file, made
+        except BaseException:
+            os.close(file)
+            raise
+        os.close(file)
+
+
+def _stands_at(file: int, path: Path) -> bool:
+    """Whether the open file is still the one of this name: another run may have discarded it before the lock."""
+    try:
+        return os.path.samestat(os.fstat(file), path.stat())
+    except FileNotFoundError:
+        return False
 
 
 def _lock(file: int, path: Path) -> None:

@@ -4,9 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Literal
 
 from fluxbore.design.study import Sweep
 from fluxbore.optimize.evaluation import Evaluation
+
+SearchEnding = Literal["done", "interrupted", "failed"]
+"""How a search ended: by itself (convergence, budget), by Ctrl-C, or by an error of the program or its surroundings."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,7 +63,7 @@ class SearchResult:
     after each step (None before there was one).
     network_start : the network's own optimum, where the FEM search began.
     rounded : the best design at the workshop's resolution, re-evaluated; None where no variable has a resolution.
-    stop_reason : a sentence.
+    stop_reason : a sentence; ending : what sort of end that was, whatever had been found by then.
     """
 
     start: Candidate
@@ -70,6 +74,7 @@ class SearchResult:
     rounded: Candidate | None
     stop_reason: str
     seconds: float
+    ending: SearchEnding = "done"
 
     @property
     def chosen(self) -> Candidate | None:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from fluxbore.design.errors import DesignError, SpecError
 from fluxbore.design.keys import Value
-from fluxbore.design.performance import FIGURES, Performance
+from fluxbore.design.performance import FIGURES, Performance, show_figure
 from fluxbore.design.spec import Spec
 from fluxbore.design.study import Objective
 from fluxbore.optimize.evaluation import Evaluation
@@ -51,6 +51,14 @@ def resolve_limits(spec: Spec, start: Evaluation) -> tuple[Limit, ...]:
         if constraint.upper is not None:
             limits.append(Limit(constraint.subject, "<=", unit * constraint.upper))
     return tuple(limits)
+
+
+def show_limit(spec: Spec, limit: Limit) -> str:
+    """The limit's number with its unit."""
+    if limit.subject in FIGURES:
+        return show_figure(limit.subject, limit.limit)
+    key = spec.kind.key(limit.subject)
+    return key.show(limit.limit) if key is not None else f"{limit.limit:.6g}"
 
 
 def check(

@@ -7,7 +7,7 @@ import time
 from collections.abc import Sequence
 
 from fluxbore.design.errors import FluxboreError, SpecError
-from fluxbore.design.performance import FIGURES, show_figure
+from fluxbore.design.performance import Performance
 from fluxbore.design.spec import Spec
 from fluxbore.optimize import nlopt_loop
 from fluxbore.optimize.archive import Archive, BudgetUsedError
@@ -17,7 +17,7 @@ from fluxbore.optimize.evaluator import Evaluate, Evaluator
 from fluxbore.optimize.executor import Executor, SerialExecutor
 from fluxbore.optimize.journal import Journal
 from fluxbore.optimize.outcome import Candidate, Limit, SearchResult, SweepResult
-from fluxbore.optimize.problem import Box, Merit, box, candidate, resolve_limits, violation
+from fluxbore.optimize.problem import Box, Merit, box, candidate, check, resolve_limits, show_limit, violation
 from fluxbore.optimize.progress import Report, Tracker
 from fluxbore.optimize.stages import FIRST_STEP, Stages
 from fluxbore.optimize.sweep import DEFAULT_OBJECTIVE, numbers
@@ -36,16 +36,17 @@ def run_search(
     """Look for the study's best feasible design by FEM, within ``max_evaluations`` designs, the start among them.
 
     Nothing that happens to a design ends the search. Whatever does end it (convergence, budget, a full disk, Ctrl-C)
-    stands in ``stop_reason``, and the best feasible design so far in ``best``. With the journal of a search that was
-    killed, the same designs are asked for in the same order and none is computed twice.
+    stands in ``ending`` and ``stop_reason``, and the best feasible design so far in ``best``. With the journal of a
+    search that was killed, the same designs are asked for in the same order and none is computed twice.
 
-    Raises SpecError where the study has no objective or no variables, or limits leave a variable no room;
-    KeyboardInterrupt only before the first design is known.
+    Raises SpecError where the study has no objective or no variables, or as `check_study` does; KeyboardInterrupt only
+    before the first design is known.
     """
     study = spec.study
     if study.objective is None or not study.variables:
         missing = "study.objective" if study.objective is None else "study.variables"
         raise SpecError(f"{missing} must be given for a search; got none.")
+    check_study(spec)
     begin = time.monotonic()
     base = spec.for_study()
     bounds = _bounds(base)
@@ -86,7 +87,27 @@ def run_search(
         rounded=stages.rounded,
         stop_reason=reason,
         seconds=time.monotonic() - begin,
+        ending=stages.ending,
     )
+
+
+def check_study(spec: Spec) -> None:
+    """Refuse a search that cannot succeed, as far as that is known without a field. Raises SpecError.
+
+    That is where limits leave a variable no room, or a limit on a key that no variable moves is missed at the start;
+    "1.1 x start" on a key counts, for the start's own keys are known.
+    """
+    base = spec.for_study()
+    bounds = _bounds(base)
+    for item in check(_known_limits(base), base.values, Performance(), "network") if bounds.keys else ():
+        name = item.limit.subject
+        if item.satisfied or name in bounds.keys or name not in base.given:
+            continue
+        word = "at most" if item.limit.sense == "<=" else "at least"
+        raise SpecError(
+            f"study.constraints cannot be met: {name} would have to be {word} {show_limit(base, item.limit)}, but no "
+            f"variable moves it from {base.kind.known(name).show(base.number(name))}."
+        )
 
 
 def network_optimum(base: Spec, bounds: Box, evaluate: Evaluate) -> Candidate | None:
@@ -137,7 +158,8 @@ def one_at_a_time(
 ) -> Candidate | None:
     """What choosing each quantity by itself amounts to: the best value of every sweep of one axis, all in one design.
 
-    It is evaluated by FEM and held against the study's limits. None without such a sweep or without a sound row in one.
+    It is evaluated by FEM and held against the study's limits. None without such a sweep, without a sound row in one,
+    or where limits refer to a start that has no figures.
     """
     objective = spec.study.objective or DEFAULT_OBJECTIVE
     base = spec.for_study()
@@ -150,7 +172,10 @@ def one_at_a_time(
         return None
     evaluator = Evaluator(base, executor, journal, "fem", evaluate, "one at a time")
     start, joint = evaluator.all([{}, chosen])
-    limits = resolve_limits(base, start.evaluation)
+    try:
+        limits = resolve_limits(base, start.evaluation)
+    except FluxboreError:  # the search says why
+        return None
     keys = list(dict.fromkeys([*(variable.key for variable in spec.study.variables), *chosen]))
     try:
         return candidate(evaluator.design(chosen), objective, limits, keys, joint.evaluation)
@@ -158,18 +183,15 @@ def one_at_a_time(
         return Candidate(numbers(chosen), joint.evaluation, None, ())
 
 
+def _known_limits(base: Spec) -> tuple[Limit, ...]:
+    """The limits whose numbers are known before the first evaluation: all but those relative to the start's figures."""
+    return resolve_limits(base, failure("network", "", ""))
+
+
 def _bounds(base: Spec) -> Box:
-    """The box of the variables; limits on keys need no evaluation, so they are known before the first."""
+    """The box of the variables, with the limits on them."""
     keys = {variable.key for variable in base.study.variables}
-    return box(base, [limit for limit in resolve_limits(base, failure("network", "", "")) if limit.subject in keys])
-
-
-def _shown(base: Spec, limit: Limit) -> str:
-    """The limit with its unit."""
-    if limit.subject in FIGURES:
-        return show_figure(limit.subject, limit.limit)
-    key = base.kind.key(limit.subject)
-    return key.show(limit.limit) if key is not None else f"{limit.limit:.6g}"
+    return box(base, [limit for limit in _known_limits(base) if limit.subject in keys])
 
 
 def _shortfall(base: Spec, archive: Archive) -> str:
@@ -180,7 +202,7 @@ def _shortfall(base: Spec, archive: Archive) -> str:
     if math.isinf(violation(nearest)):
         return " None of its designs could be evaluated in full."
     missed = [
-        f"{item.limit.subject} {item.limit.sense} {_shown(base, item.limit)} by {-item.margin:.2%}"
+        f"{item.limit.subject} {item.limit.sense} {show_limit(base, item.limit)} by {-item.margin:.2%}"
         for item in nearest.checks
         if not item.satisfied and item.margin is not None
     ]

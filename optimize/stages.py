@@ -11,7 +11,7 @@ from fluxbore.design.study import Study
 from fluxbore.optimize import nlopt_loop, rounding
 from fluxbore.optimize.archive import Archive, BudgetUsedError
 from fluxbore.optimize.evaluator import Evaluated
-from fluxbore.optimize.outcome import Candidate, Limit
+from fluxbore.optimize.outcome import Candidate, Limit, SearchEnding
 from fluxbore.optimize.polish import polish
 from fluxbore.optimize.problem import Merit, Point, better
 
@@ -29,6 +29,7 @@ class Stages:
     held : the limits that NLopt must hold; those on variables are in the box already.
     back_off : room to leave to them (relative). Searches close in on a limit from both sides; this much room makes
     what they find feasible.
+    ending : how `run` ended.
     """
 
     archive: Archive
@@ -37,6 +38,7 @@ class Stages:
     held: Sequence[Limit]
     back_off: float
     rounded: Candidate | None = None
+    ending: SearchEnding = "done"
     penalties: dict[Point, float] = field(default_factory=dict)
 
     def run(self, first: Sequence[Mapping[str, float]], done: Sequence[Evaluated]) -> str:
@@ -48,8 +50,10 @@ class Stages:
             begun = [self.archive.adopt(v, d.evaluation, d.reused) for v, d in zip(first, done, strict=True)]
             reason = self.search(begun)
         except KeyboardInterrupt:
+            self.ending = "interrupted"
             return "The search was interrupted."
         except Exception as error:
+            self.ending = "failed"
             return _mishap(error)
         self.archive.budget = most
         try:
@@ -57,8 +61,10 @@ class Stages:
                 self.archive, variables, self.merit, self.held, self.study.search.relative_tolerance
             )
         except KeyboardInterrupt:
+            self.ending = "interrupted"
             return f"{reason} The rounding to the workshop's steps was interrupted."
         except Exception as error:
+            self.ending = "failed"
             return f"{reason} The rounding to the workshop's steps failed: {_mishap(error)}"
         return reason
 

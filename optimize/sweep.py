@@ -11,7 +11,7 @@ from fluxbore.design.study import Objective, Sweep
 from fluxbore.optimize.evaluate import evaluate as evaluate_design
 from fluxbore.optimize.evaluation import Evaluation, Fidelity
 from fluxbore.optimize.evaluator import Evaluate, Evaluator
-from fluxbore.optimize.executor import Executor
+from fluxbore.optimize.executor import Executor, SerialExecutor
 from fluxbore.optimize.journal import Journal
 from fluxbore.optimize.outcome import SweepResult, SweepRow
 from fluxbore.optimize.progress import Report, Tracker
@@ -48,6 +48,24 @@ def run_sweeps(
         made = (SweepRow(numbers(values), found[begin + i]) for i, values in enumerate(rows))
         results.append(SweepResult(sweep, tuple(made)))
         begin += len(rows)
+    return tuple(results)
+
+
+def recorded_sweeps(
+    spec: Spec, journal: Journal | None, fidelity: Fidelity = "fem", evaluate: Evaluate = evaluate_design
+) -> tuple[SweepResult, ...]:
+    """Those sweeps of the study that the journal holds whole, as `run_sweeps` gave them; nothing is computed."""
+    evaluator = Evaluator(spec.for_study(), SerialExecutor(), journal, fidelity, evaluate, "sweep")
+    results = []
+    for sweep in spec.study.sweeps if journal is not None else ():
+        rows = []
+        for values in grid(spec, sweep):
+            evaluation = evaluator.known(values)
+            if evaluation is None:
+                break
+            rows.append(SweepRow(numbers(values), evaluation))
+        else:
+            results.append(SweepResult(sweep, tuple(rows)))
     return tuple(results)
 
 

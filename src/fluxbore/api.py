@@ -221,10 +221,10 @@ def _workshop(
     spec: Spec, folder: Path | str | None, workers: int | None, force: bool
 ) -> Iterator[tuple[Folder | None, Journal | None, Executor]]:
     """Folder, journal and workers of one run."""
-    place = open_folder(folder, spec, force) if folder is not None else None
     with ExitStack() as stack:
-        journal = stack.enter_context(Journal(place.journal)) if place is not None else None
-        yield place, journal, stack.enter_context(local_executor(workers))
+        executor = stack.enter_context(local_executor(workers))
+        place = stack.enter_context(open_folder(folder, spec, force)) if folder is not None else None
+        yield place, place.journal if place is not None else None, executor
 
 
 def _write_report(

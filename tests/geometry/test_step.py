@@ -1,7 +1,11 @@
 """STEP files read back: names, hierarchy, colours and solids, and that a failure leaves nothing half-written."""
 
 import dataclasses
+import os
 import re
+import signal
+import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +15,7 @@ from fluxbore.design import graphics
 from fluxbore.design.errors import OutputError
 from fluxbore.design.hybrid import BackYoke, Cylinder, EndCaps, HybridActuator, Mover, Piston, Shaft, Winding
 from fluxbore.geometry import assembly as geometry
-from fluxbore.geometry import hybrid_parts, step
+from fluxbore.geometry import hybrid_parts, step, step_files
 from fluxbore.geometry.assembly import Assembly, Part, rectangle
 from fluxbore.geometry.solid import is_closed, kernel_volume
 
@@ -137,6 +141,68 @@ def test_a_second_export_replaces_the_parts_and_leaves_other_files(tmp_path: Pat
     assert sorted(path.name for path in folder.iterdir()) == ["a.step", "notes.txt", "parts"]
     assert sorted(path.name for path in (folder / "parts").iterdir()) == ["both.step", "new-one.step"]
     assert "new one" in (folder / "a.step").read_text(encoding="ascii")
+
+
+def test_an_assembly_of_another_name_goes_and_files_of_others_stay(tmp_path: Path) -> None:
+    """Catches an assembly of an earlier name beside the new one, and the loss of what somebody saved beside ours."""
+    folder = tmp_path / "cad"
+    step.write_step(Assembly("old", (block("b"),), 0.0), folder)
+    edited = (folder / "old.step").read_text(encoding="ascii").replace("'fluxbore", "'FreeCAD")
+    for name in ("edited.step", "parts/edited.step"):
+        (folder / name).write_text(edited, encoding="ascii")
+    (folder / "parts" / "own").mkdir()
+    (folder / "parts" / "own" / "notes.txt").write_text("mine")
+    step.write_step(Assembly("nëw " * 30, (block("c"),), 0.0), folder)
+    step.write_step(Assembly("new", (block("c"),), 0.0), folder)
+    left = sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file())
+    assert left == ["edited.step", "new.step", "parts/c.step", "parts/edited.step", "parts/own/notes.txt"]
+    step_files.remove_own(folder)
+    left = sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file())
+    assert left == ["edited.step", "parts/edited.step", "parts/own/notes.txt"]
+
+
+def test_what_was_written_is_removed_as_a_whole(tmp_path: Path) -> None:
+    step.write_step(Assembly("a", (block("b"),), 0.0), tmp_path / "cad")
+    step_files.remove_own(tmp_path / "cad")
+    step_files.remove_own(tmp_path / "cad")
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("there", [False, True])
+def test_what_a_killed_export_left_goes_at_the_next(tmp_path: Path, there: bool) -> None:
+    """Catches scratch folders that pile up; the one of a process that lives and folders of others are not touched."""
+    folder = tmp_path / "cad"
+    if there:
+        step.write_step(Assembly("a", (block("b"),), 0.0), folder)
+    killed = subprocess.Popen(
+        [sys.executable, "-c", KILLED, str(folder)], env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
+    )
+    assert killed.wait() == -signal.SIGKILL
+    beside = folder if there else tmp_path
+    (left,) = beside.glob(".step-*")
+    assert (left / "new" / "a.step").exists()
+    (left / "old").mkdir(exist_ok=True)
+    (left / "old" / "notes.txt").write_text("mine")
+    others = [beside / f".step-{os.getppid()}-abcdefgh", beside / ".step-by-step"]
+    for other in others:
+        other.mkdir()
+    step.write_step(Assembly("a", (block("c"),), 0.0), folder)
+    assert sorted(beside.glob(".step-*")) == sorted([*others, left])
+    assert [path.name for path in left.rglob("*")] == ["old", "notes.txt"]
+    (left / "old" / "notes.txt").unlink()
+    step.write_step(Assembly("a", (block("c"),), 0.0), folder)
+    assert sorted(beside.glob(".step-*")) == sorted(others)
+
+
+KILLED = """
+import os, signal, sys
+from pathlib import Path
+from fluxbore.geometry import step
+from fluxbore.geometry.assembly import Assembly, Part, rectangle
+step._move = lambda *_: os.kill(os.getpid(), signal.SIGKILL)
+part = Part("b", "block", "stator", "steel", (0.2, 0.4, 0.6), rectangle(0, 0.01, 0, 0.02))
+step.write_step(Assembly("a", (part,), 0.0), Path(sys.argv[1]))
+"""
 
 
 @pytest.mark.parametrize("failing", ["a.step", "c.step"])

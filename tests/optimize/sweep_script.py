@@ -7,12 +7,10 @@ import toy
 
 from fluxbore.optimize.executor import local_executor
 from fluxbore.optimize.folder import open_folder
-from fluxbore.optimize.journal import Journal
 from fluxbore.optimize.sweep import run_sweeps
 from fluxbore.optimize.table import FILE_NAME, results_table
 
 spec = toy.two_sweeps(points=9)
-folder = open_folder(Path(sys.argv[1]), spec)
-with Journal(folder.journal) as journal, local_executor(2) as executor:
-    results = run_sweeps(spec, journal, executor, evaluate=toy.slow)
-folder.write(FILE_NAME, results_table(spec, results))
+with open_folder(Path(sys.argv[1]), spec) as folder, local_executor(2) as executor:
+    results = run_sweeps(spec, folder.journal, executor, evaluate=toy.slow)
+    folder.write(FILE_NAME, results_table(spec, results))

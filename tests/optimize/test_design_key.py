@@ -1,5 +1,7 @@
 """The key of a design: the same for what gives the same figures, another for anything that may change them."""
 
+import importlib.metadata
+import shutil
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -7,7 +9,7 @@ import pytest
 import toy
 
 import fluxbore
-from fluxbore.optimize.design_key import canonical, design_key, source_hash
+from fluxbore.optimize.design_key import ROOMS, canonical, design_key, program, source_hash
 
 
 @dataclass(frozen=True)
@@ -39,6 +41,36 @@ def test_long_arrays_are_told_apart_in_their_middle():
     other[2500] = 1e-12
     assert canonical(Iron(one)) == canonical(Iron(np.zeros(5000)))
     assert canonical(Iron(one)) != canonical(Iron(other))
+
+
+def test_one_character_of_any_module_changes_the_key(tmp_path, monkeypatch):
+    """Catches a module whose change would leave old figures in the journal: new ones, nested ones, all of them."""
+    package = Path(fluxbore.__path__[0])
+    for room in ROOMS:
+        shutil.copytree((package / room).resolve(), tmp_path / room, ignore=shutil.ignore_patterns("__pycache__"))
+    monkeypatch.setattr(fluxbore, "__path__", [str(tmp_path)])
+    modules = sorted(tmp_path.rglob("*.py"))
+    assert {module.relative_to(tmp_path).parts[0] for module in modules} == {"design", "geometry", "fem", "optimize"}
+    seen = {source_hash()}
+    for module in modules:
+        text = module.read_bytes()
+        module.write_bytes(text[:-1] + bytes([text[-1] ^ 1]))
+        seen.add(source_hash())
+        module.write_bytes(text)
+    assert len(seen) == len(modules) + 1
+
+
+@pytest.mark.parametrize("library", ["numpy", "scipy"])
+def test_another_version_of_what_calculates_changes_the_key(library, monkeypatch):
+    """Catches figures of an old numpy or scipy that are taken for those of the new one."""
+    version = importlib.metadata.version
+    before = design_key(toy.spec(), "fem", toy.plain)
+    monkeypatch.setattr(importlib.metadata, "version", lambda name: "0.1" if name == library else version(name))
+    program.cache_clear()
+    try:
+        assert design_key(toy.spec(), "fem", toy.plain) != before
+    finally:
+        program.cache_clear()
 
 
 def test_the_source_hash_follows_links_and_sees_data_but_not_reports(tmp_path, monkeypatch):

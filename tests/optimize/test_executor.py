@@ -203,6 +203,16 @@ def test_workers_that_cannot_start_are_one_sentence(monkeypatch):
         list(executor.run(jobs.double, [1, 2]))
 
 
+def test_a_task_beyond_its_time_limit_costs_itself_alone(tmp_path):
+    """Catches a design that hangs and holds up a study for ever, and a process that goes on after it was given up."""
+    with local_executor(2, time_limit=3.0) as executor:
+        outcomes = {o.index: o for o in executor.run(jobs.sleep_but_first, [(tmp_path, i == 1) for i in range(4)])}
+        assert [outcomes[i].failure for i in (0, 2, 3)] == [None] * 3
+        assert outcomes[1].failure == "The evaluation took longer than its time limit of 3 s."
+        assert sum(alive(int(path.name)) for path in tmp_path.iterdir()) == 1  # whoever did the short ones
+        assert [outcome.value for outcome in executor.run(jobs.double, [4])] == [8]
+
+
 def test_the_default_is_a_process_for_each_core():
     with contextlib.closing(local_executor()) as executor:
         assert isinstance(executor, ProcessExecutor)

@@ -78,9 +78,21 @@ def test_torn_at_every_byte_it_loses_the_torn_record_only(tmp_path):
         assert all(json.loads(line) for line in torn.read_text().splitlines())
 
 
-@pytest.mark.parametrize(
-    "damage", [b"\n", b"\0" * 40 + b"\n", b"{}\n", b"[1]\n", b'{"key":1,"evaluation":{"status":"ok"}}\n', b"\xff\xfe\n"]
-)
+BAD_LINES = [
+    b"\n",
+    b"\0" * 40 + b"\n",
+    b"{}\n",
+    b"[1]\n",
+    b'{"key":1,"evaluation":{"status":"ok"}}\n',
+    b'{"key":"c","evaluation":{"status":"ok"}}\n',
+    b'{"key":"c","evaluation":{"status":"ok","positions":[1]}}\n',
+    b'{"key":"c","evaluation":{"fidelity":"fem","status":"ok","reasons":[],"performance":{"gone":1},"positions":[],'
+    b'"details":null}}\n',
+    b"\xff\xfe\n",
+]
+
+
+@pytest.mark.parametrize("damage", BAD_LINES)
 def test_a_damaged_line_in_the_middle_costs_nothing_else(tmp_path, damage):
     """Catches a journal that refuses to open after a power cut filled a block with zeros."""
     path = tmp_path / "j"
@@ -94,6 +106,7 @@ def test_a_damaged_line_in_the_middle_costs_nothing_else(tmp_path, damage):
         assert "a" in journal
         assert "b" in journal
         assert len(journal) == 2
+        assert journal.get("c") is None
 
 
 def test_what_crashed_is_tried_again_and_what_is_invalid_is_not(tmp_path):

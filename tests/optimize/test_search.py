@@ -13,7 +13,7 @@ from fluxbore.optimize.evaluation import FAILED, INVALID
 from fluxbore.optimize.executor import SerialExecutor, local_executor
 from fluxbore.optimize.journal import Journal
 from fluxbore.optimize.problem import box
-from fluxbore.optimize.search import network_optimum, one_at_a_time, run_search
+from fluxbore.optimize.search import check_study, network_optimum, one_at_a_time, run_search
 from fluxbore.optimize.sweep import run_sweeps
 from fluxbore.optimize.table import results_table
 
@@ -88,6 +88,7 @@ def test_a_study_like_the_real_one_needs_at_most_forty_designs(start):
     assert result.best.checks[0].active
     assert result.best.values[toy.Y] >= 0.5
     assert result.best.objective >= result.start.objective
+    assert result.ending == "done"
     assert result.network_start.evaluation.fidelity == "network"
     assert "converged" in result.stop_reason
 
@@ -172,6 +173,7 @@ def test_ctrl_c_gives_back_what_there_is():
     result = consistent(search(spec, progress=interrupt), spec)
     assert len(result.history) == 9
     assert result.stop_reason == "The search was interrupted."
+    assert result.ending == "interrupted"
     assert seen[-1].best == result.best.objective
 
 
@@ -190,6 +192,7 @@ def test_a_full_disk_gives_back_what_there_is(tmp_path, monkeypatch):
     monkeypatch.setattr(journal, "put", full)
     result = consistent(search(spec, journal=journal), spec)
     assert result.stop_reason == "j cannot be written: No space left on device."
+    assert result.ending == "failed"
     assert result.best is not None
     journal.close()
 
@@ -203,6 +206,21 @@ def test_no_budget_is_overdrawn(budget, start, tmp_path, monkeypatch):
         result = consistent(search(spec, journal=journal), spec)
         assert len(journal) <= budget
     assert "budget" in result.stop_reason
+    assert result.ending == "done"
+
+
+@pytest.mark.parametrize(("error", "ending"), [(KeyboardInterrupt, "interrupted"), (OutputError("Full."), "failed")])
+def test_an_end_during_the_rounding_is_not_a_success(error, ending, monkeypatch):
+    """Catches an exit status of 0 where the design that is made to the workshop's steps was never looked for."""
+
+    def stop(*_):
+        raise error
+
+    monkeypatch.setattr("fluxbore.optimize.rounding.round_off", stop)
+    spec = toy.rosenbrock_study()
+    result = consistent(search(spec), spec)
+    assert result.ending == ending
+    assert result.best is not None
 
 
 def test_an_infeasible_set_names_the_limit_that_is_nearest():
@@ -277,6 +295,44 @@ def test_a_search_without_an_objective_or_variables_is_an_error():
         search(toy.spec())
     with pytest.raises(SpecError, match=r"study\.variables must be given"):
         search(toy.spec(objective=Objective("force_constant", True)))
+
+
+@pytest.mark.parametrize(
+    ("constraint", "words"),
+    [
+        (
+            Constraint(toy.X, lower=3.0, relative_to_start=True),
+            r"actuator\.x would have to be at least .*9.* at most .*6",
+        ),
+        (Constraint(toy.N, upper=0.5, relative_to_start=True), r"actuator\.n .* at most .*0\.5.* moves it from .*1"),
+        (Constraint(toy.N, lower=2.0, relative_to_start=True), r"actuator\.n .* at least .*2.* moves it from .*1"),
+    ],
+)
+def test_limits_on_keys_that_cannot_be_met_are_refused_before_anything_is_computed(constraint, words):
+    """Catches "3 x start" on a variable whose bound is lower, found out after an hour of sweeps."""
+    spec = toy.actuator_study()
+    check_study(spec)
+    held = Constraint(toy.N, upper=1.0, lower=1.0, relative_to_start=True)
+    check_study(replace(spec, study=replace(spec.study, constraints=(held,))))
+    spec = replace(spec, study=replace(spec.study, constraints=(*spec.study.constraints, constraint)))
+    with pytest.raises(SpecError, match=words):
+        check_study(spec)
+    with pytest.raises(SpecError, match=words):
+        search(spec, forbidden)
+    check_study(replace(spec, study=replace(spec.study, variables=())))
+
+
+def forbidden(design, fidelity="fem"):
+    raise AssertionError("nothing is to be computed")
+
+
+def test_one_at_a_time_without_a_start_is_none():
+    """Catches a whole run that ends with "the input is wrong" because the start did not converge."""
+    spec = toy.actuator_study(y=2.6)  # no winding
+    spec = replace(spec, study=replace(spec.study, sweeps=(Sweep("y", (Axis(toy.Y, (0.4, 0.8)),)),)))
+    results = run_sweeps(spec, None, SerialExecutor(), evaluate=toy.actuator_like)
+    assert results[0].best("force_constant") is not None
+    assert one_at_a_time(spec, results, None, SerialExecutor(), toy.actuator_like) is None
 
 
 def test_one_at_a_time_is_the_best_of_each_sweep_together():

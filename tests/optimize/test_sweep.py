@@ -19,7 +19,7 @@ from fluxbore.design.study import Axis, Sweep
 from fluxbore.optimize.evaluation import FAILED, INVALID, NOT_CONVERGED, OK
 from fluxbore.optimize.executor import SerialExecutor, local_executor
 from fluxbore.optimize.journal import Journal
-from fluxbore.optimize.sweep import run_sweeps
+from fluxbore.optimize.sweep import recorded_sweeps, run_sweeps
 from fluxbore.optimize.table import results_table
 
 SCRIPT = Path(__file__).with_name("sweep_script.py")
@@ -82,6 +82,37 @@ def test_nothing_is_computed_twice(trace, tmp_path):
     assert len(lines(trace)) == 8
     assert seen[-1].reused == 11  # the twelfth cannot be built, so there is nothing to reuse
     assert results_table(spec, first) == results_table(spec, second)
+
+
+def test_recorded_sweeps_are_those_that_the_journal_holds_whole(trace, tmp_path):
+    """Catches the rows of an earlier sweep that are lost from the table, and designs computed for the sake of it."""
+    spec = toy.two_sweeps()
+    square = replace(spec, study=replace(spec.study, sweeps=spec.study.sweeps[:1]))
+    assert recorded_sweeps(spec, None) == ()
+    with Journal(tmp_path / "j") as journal:
+        assert recorded_sweeps(spec, journal, evaluate=toy.plain) == ()
+        made = run_sweeps(square, journal, SerialExecutor(), evaluate=toy.plain)
+        computed = lines(trace)
+        found = recorded_sweeps(spec, journal, evaluate=toy.plain)
+        assert results_table(square, found) == results_table(square, made)
+        assert recorded_sweeps(spec, journal, "network", toy.plain) == ()
+        made = run_sweeps(spec, journal, SerialExecutor(), evaluate=toy.plain)
+        assert len(lines(trace)) == len(computed) + 4
+        assert results_table(spec, recorded_sweeps(spec, journal, evaluate=toy.plain)) == results_table(spec, made)
+
+
+def test_what_a_kind_refuses_beyond_its_parameters_is_a_row():
+    """Catches figures of a window outside the stroke, which reading refuses and a sweep would compute."""
+
+    def check(values):
+        if values[toy.N] > 1:
+            raise SpecError(f"actuator.n must be at most 1; got {values[toy.N]}.")
+
+    spec = toy.two_sweeps()
+    spec = replace(spec, kind=replace(spec.kind, check=check))
+    rows = run_sweeps(spec, None, SerialExecutor(), evaluate=toy.plain)[1].rows
+    assert [row.evaluation.status for row in rows] == [OK, OK, INVALID, INVALID]
+    assert rows[2].evaluation.reasons == ("actuator.n must be at most 1; got 2.",)
 
 
 def test_what_crashed_is_computed_again(trace, tmp_path):
