@@ -23,7 +23,8 @@ class Kind:
 
     keys, alternatives : what may be given, and which of it excludes one another. resolve, from_values : how given
     values become all values, and those the parameters. materials : key -> the kind of material it must name.
-    non_magnetic : keys that must not name a soft iron. check : of the resolved values, beyond what the parameters themselves refuse; raises SpecError.
+    non_magnetic : keys that must not name a soft iron.
+    check : of the resolved values, beyond what the parameters themselves refuse; raises SpecError.
     """
 
     name: str

@@ -53,8 +53,8 @@ def electric_loading(actuator: HybridActuator, current: float) -> float:
 
     One phase is a current sheet of n I / tau_w over a width tau_w in each period 2 tau (n turns a coil, all wound the
     same way). Its fundamental has the amplitude (2/pi) sin(pi tau_w / 2 tau) n I / tau_w, which is the winding factor
-    times n I / tau, and three phases in balance make a wave of 3/2 of that. In the scheme of Bianchi et al. (2003), IEEE
-    Trans. Ind. Appl. 39, 466.
+    times n I / tau, and three phases in balance make a wave of 3/2 of that. In the scheme of Bianchi et al. (2003),
+    IEEE Trans. Ind. Appl. 39, 466.
     """
     sheet = actuator.turns_per_coil / actuator.coil_width * current
     return 1.5 * actuator.coil_width / actuator.mover.pole_pitch * winding_factor(actuator) * sheet

@@ -25,7 +25,7 @@ def best(path: Path) -> float:
     evaluation: Evaluation = fluxbore.evaluate(spec, "network")
     sweeps: tuple[SweepResult, ...] = fluxbore.sweep(spec, fidelity="network", workers=1)
     files: list[Path] = fluxbore.export(spec, "cad")
-    page: Path = fluxbore.report(spec, "report.html", picture=False)
+    page: Path = fluxbore.report(spec, "report.html", picture=False).files[0]
     found = fluxbore.optimize(spec, "out", workers=2, force=True)
     chosen = fluxbore.design(spec, "out").evaluation
     print(files, page, found.chosen, sweeps[0].rows[0].values, chosen.performance.force_constant)

@@ -6,23 +6,25 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
+from time import monotonic
 
 from fluxbore.actuators import actuator_of
 from fluxbore.design import spec as spec_module
-from fluxbore.design.errors import FluxboreError, SpecError
+from fluxbore.design.errors import FluxboreError, OutputError, SpecError
 from fluxbore.design.spec import Spec
 from fluxbore.design.spec_file import to_toml
 from fluxbore.design.study import Constraint
 from fluxbore.optimize.evaluate import evaluate as evaluate_design
-from fluxbore.optimize.evaluation import Evaluation, Fidelity
+from fluxbore.optimize.evaluation import OK, Evaluation, Fidelity
 from fluxbore.optimize.evaluator import Evaluator
 from fluxbore.optimize.executor import Executor, local_executor
 from fluxbore.optimize.folder import Folder, open_folder
 from fluxbore.optimize.journal import Journal
-from fluxbore.optimize.outcome import Candidate, SearchResult, SweepResult
+from fluxbore.optimize.outcome import Candidate, Check, SearchResult, SweepResult
+from fluxbore.optimize.problem import check, resolve_limits, show_limit
 from fluxbore.optimize.progress import Report as ProgressReport
-from fluxbore.optimize.search import one_at_a_time, run_search
-from fluxbore.optimize.sweep import run_sweeps
+from fluxbore.optimize.search import check_study, one_at_a_time, run_search
+from fluxbore.optimize.sweep import recorded_sweeps, run_sweeps
 from fluxbore.optimize.table import FILE_NAME, results_table
 
 DESIGN_FILE = "design.toml"
@@ -38,17 +40,24 @@ class DesignResult:
     """What `design` found and wrote.
 
     spec, evaluation : the design to make, by finite elements; the start where the study found nothing feasible.
-    feasible : whether that design meets every limit of the study.
-    warnings : sentences on what could not be made, such as STEP files without libGL.
+    checks : the study's limits held against that design.
+    status : "ok", or in a few words why the result is not one to build: "no feasible design", "not converged", ...
+    reasons : the same in sentences. warnings : what could not be made, such as STEP files without libGL.
     """
 
     spec: Spec
     evaluation: Evaluation
-    feasible: bool
-    search: SearchResult | None
-    sweeps: tuple[SweepResult, ...]
-    files: tuple[Path, ...]
-    warnings: tuple[str, ...]
+    checks: tuple[Check, ...]
+    status: str
+    reasons: tuple[str, ...]
+    search: SearchResult | None = None
+    sweeps: tuple[SweepResult, ...] = ()
+    files: tuple[Path, ...] = ()
+    warnings: tuple[str, ...] = ()
+
+    @property
+    def ok(self) -> bool:
+        return self.status == OK
 
 
 def load(path: Path | str, overrides: Mapping[str, str] | None = None) -> Spec:
@@ -103,34 +112,45 @@ def optimize(
     spec = _spec(spec)
     _need(spec.study.objective is not None, "study.objective", "a search")
     _need(bool(spec.study.variables), "study.variables", "a search")
+    check_study(spec)
     with _workshop(spec, folder, workers, force) as (place, journal, executor):
         result = run_search(spec, journal, executor, progress)
         if place is not None:
-            place.write(FILE_NAME, results_table(spec, (), result.history))
+            earlier = recorded_sweeps(spec, journal, "fem") if journal is not None else ()
+            place.write(FILE_NAME, results_table(spec, earlier, result.history))
             if result.chosen is not None:
                 place.write(DESIGN_FILE, design_text(chosen_spec(spec, result.chosen, result)))
     return result
 
 
-def export(spec: Spec | Path | str, folder: Path | str) -> list[Path]:
+def export(spec: Spec | Path | str, folder: Path | str, *, force: bool = False) -> list[Path]:
     """Write the design as STEP: the assembly, and a file for each part in ``parts``.
 
-    Raises MissingLibraryError where cadquery or libGL is missing, with the line that installs it.
+    Raises MissingLibraryError where cadquery or libGL is missing, with the line that installs it; OutputError where
+    the folder holds other files and is not to be taken by ``force``.
     """
-    from fluxbore.geometry.step import write_step
-
     spec = _spec(spec)
-    return write_step(actuator_of(spec).assembly(spec), Path(folder))
+    with open_folder(folder, spec, force) as place:
+        return _write_cad(spec, place.path)
 
 
 def report(
-    spec: Spec | Path | str, path: Path | str, *, picture: bool = True, command: Sequence[str] | None = None
-) -> Path:
-    """Write the report of the specification's own design, without its study, as one offline HTML file."""
-    spec = _spec(spec)
-    start = evaluate_design(spec)
-    findings = DesignResult(spec, start, True, None, (), (), ())
-    return _write_report(spec, findings, Path(path), None, picture, command, None)
+    spec: Spec | Path | str,
+    path: Path | str,
+    *,
+    force: bool = False,
+    picture: bool = True,
+    command: Sequence[str] | None = None,
+) -> DesignResult:
+    """Write the report of the specification's own design, without sweeps and search, as one offline HTML file.
+
+    Raises OutputError where the file exists and is not to be replaced by ``force``.
+    """
+    spec, path = _spec(spec), Path(path)
+    if path.exists() and not force:
+        raise OutputError(f"{path} must not exist yet; it does (see --force).")
+    found = _judged(spec, evaluate_design(spec))
+    return replace(found, files=(_write_report(spec, found, path, None, picture, command, None),))
 
 
 def design(
@@ -146,41 +166,63 @@ def design(
 ) -> DesignResult:
     """The whole way: sweeps, search, STEP files, report; in ``folder``, where an interrupted run goes on.
 
-    Writes ``results.csv``, ``design.toml``, ``cad/*.step`` and ``report.html``. Without a study the design is
-    evaluated as it is.
+    Writes ``results.csv``, ``report.html`` and, of a design that can be made, ``design.toml`` and ``cad/*.step``.
+    Without an objective and variables the design is evaluated as it is.
     """
-    from time import monotonic
-
     begin = monotonic()
     spec = _spec(spec)
-    warnings: list[str] = []
+    check_study(spec)
     with _workshop(spec, folder, workers, force) as (place, journal, executor):
         assert place is not None
         sweeps = run_sweeps(spec, journal, executor, "fem", progress) if spec.study.sweeps else ()
-        search = None
         separate = None
         if spec.study.objective is not None and spec.study.variables:
             search = run_search(spec, journal, executor, progress)
+            if search.ending == "interrupted":
+                raise KeyboardInterrupt
+            found = _searched(spec, search)
             separate = one_at_a_time(spec, sweeps, journal, executor)
-        history = search.history if search is not None else ()
+        else:
+            found = _judged(spec, _evaluated(spec, journal, executor))
+        history = found.search.history if found.search is not None else ()
         files = [place.write(FILE_NAME, results_table(spec, sweeps, history))]
-        chosen = search.chosen if search is not None else None
-        final = chosen_spec(spec, chosen, search) if chosen is not None and search is not None else spec
-        evaluation = chosen.evaluation if chosen is not None else _evaluated(spec, journal, executor)
-        files.append(place.write(DESIGN_FILE, design_text(final)))
-        try:
-            files += export(final, place.path / CAD_FOLDER)
-        except FluxboreError as error:
-            warnings.append(f"No STEP files: {error}")
-        feasible = chosen is not None or search is None
-        findings = DesignResult(final, evaluation, feasible, search, tuple(sweeps), tuple(files), tuple(warnings))
-        target = place.path / REPORT_FILE
+        if found.search is None or found.search.chosen is not None:
+            files.append(place.write(DESIGN_FILE, design_text(found.spec)))
+            try:
+                files += _write_cad(found.spec, place.path / CAD_FOLDER)
+            except FluxboreError as error:
+                found = replace(found, warnings=(f"No STEP files: {error}",))
+        found = replace(found, sweeps=tuple(sweeps))
         seconds = monotonic() - begin
-        files.append(_write_report(spec, findings, target, separate, picture, command, seconds))
+        files.append(_write_report(spec, found, place.path / REPORT_FILE, separate, picture, command, seconds))
         if say is not None:
-            for warning in warnings:
+            for warning in found.warnings:
                 say(warning)
-    return replace(findings, files=tuple(files))
+    return replace(found, files=tuple(files))
+
+
+def _searched(spec: Spec, search: SearchResult) -> DesignResult:
+    """The search's outcome: its chosen design, else the start with the reason."""
+    chosen = search.chosen
+    if chosen is None:
+        reasons = (search.stop_reason, *search.start.evaluation.reasons)
+        return DesignResult(spec, search.start.evaluation, search.start.checks, "no feasible design", reasons, search)
+    status, reasons = (OK, ()) if search.ending == "done" else (search.ending, (search.stop_reason,))
+    final = chosen_spec(spec, chosen, search)
+    return DesignResult(final, chosen.evaluation, chosen.checks, status, reasons, search)
+
+
+def _judged(spec: Spec, evaluation: Evaluation) -> DesignResult:
+    """A design that was evaluated as it is, held against the study's limits."""
+    if not evaluation.ok:
+        return DesignResult(spec, evaluation, (), evaluation.status, evaluation.reasons)
+    checks = check(resolve_limits(spec, evaluation), spec.values, evaluation.performance, evaluation.fidelity)
+    missed = tuple(
+        f"{item.limit.subject} {item.limit.sense} {show_limit(spec, item.limit)} is not met."
+        for item in checks
+        if not item.satisfied
+    )
+    return DesignResult(spec, evaluation, checks, "limits not met" if missed else OK, missed)
 
 
 def chosen_spec(spec: Spec, chosen: Candidate, search: SearchResult) -> Spec:
@@ -209,6 +251,12 @@ def _spec(spec: Spec | Path | str) -> Spec:
 def _need(present: bool, key: str, what: str) -> None:
     if not present:
         raise SpecError(f"{key} must be given for {what}; got none.")
+
+
+def _write_cad(spec: Spec, folder: Path) -> list[Path]:
+    from fluxbore.geometry.step import write_step
+
+    return write_step(actuator_of(spec).assembly(spec), folder)
 
 
 def _evaluated(spec: Spec, journal: Journal | None, executor: Executor) -> Evaluation:
@@ -255,13 +303,14 @@ def _write_report(
         search=findings.search,
         sweeps=findings.sweeps,
         one_at_a_time=separate,
+        checks=findings.checks,
         flux_map=views.flux_map(final) if views.flux_map is not None and findings.evaluation.ok else None,
         start_flux_map=views.flux_map(spec) if views.flux_map is not None and studied and start.ok else None,
         slots=views.slots(final) if views.slots is not None else None,
         parts=gather.part_rows(final, parts),
         assembly=parts,
         picture=gather.picture(parts) if picture else Picture(None, "No picture was asked for."),
-        checked=gather.checked(parts),
+        checked=(*gather.checked(parts), *findings.evaluation.warnings),
         not_checked=(*gather.NOT_CHECKED, *findings.warnings),
         provenance=gather.provenance(spec, findings.evaluation, command),
         seconds=seconds,

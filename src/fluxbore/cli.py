@@ -1,7 +1,8 @@
 """The command line: the only place that prints.
 
-Exit status: 0 done; 2 the input is wrong, one sentence on stderr and nothing on stdout; 3 it ran and the result is
-not valid (no feasible design, no convergence). Results go to stdout, everything else to stderr.
+Exit status: 0 done; 1 a fault of the program; 2 the input is wrong, one sentence on stderr and nothing on stdout; 3 it
+ran and the result is not valid (no feasible design, no convergence); 130 interrupted. Results go to stdout,
+everything else to stderr.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ from fluxbore.design.errors import FluxboreError, SpecError, one_line, shown
 if TYPE_CHECKING:
     from fluxbore.design.spec import Spec
 
-DONE, INPUT_WRONG, NOT_VALID, INTERRUPTED = 0, 2, 3, 130
+DONE, PROGRAM_FAULT, INPUT_WRONG, NOT_VALID, INTERRUPTED = 0, 1, 2, 3, 130
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -55,6 +56,14 @@ def main(argv: Sequence[str] | None = None) -> int:
     except OSError as error:
         where = f"{error.filename} " if error.filename else ""
         return _refuse(f"{where}cannot be read or written: {error.strerror or error}.")
+    except Exception as error:
+        if os.environ.get("FLUXBORE_TRACEBACK"):
+            raise
+        _refuse(
+            f"a fault of the program, {type(error).__name__}: {error}; please report it with the specification "
+            "(FLUXBORE_TRACEBACK=1 shows where)."
+        )
+        return PROGRAM_FAULT
 
 
 def _refuse(sentence: str) -> int:
@@ -98,6 +107,7 @@ def _parser() -> argparse.ArgumentParser:
     export = _with_spec(add("export", _export, "write the design as STEP files"))
     export.add_argument("-o", "--output", metavar="DIR", type=_path, required=True, help="folder for the files")
     export.add_argument("--format", choices=("step",), default="step", help="default: step")
+    export.add_argument("--force", action="store_true", help="take a folder that holds other files")
     export.add_argument("--json", action="store_true", help="print JSON")
 
     report = _with_spec(add("report", _report, "write the report of the specification's own design"))
@@ -105,6 +115,7 @@ def _parser() -> argparse.ArgumentParser:
         "-o", "--output", metavar="FILE", type=_path, required=True, help="the HTML file, or a folder for it"
     )
     report.add_argument("--no-picture", action="store_true", help="do without the rendered picture")
+    report.add_argument("--force", action="store_true", help="replace the file where it exists")
     report.add_argument("--json", action="store_true", help="print JSON")
 
     design = _with_run(add("design", _design, "sweeps, search, STEP files and report in one"), folder_needed=True)
@@ -254,13 +265,15 @@ def _optimize(options: argparse.Namespace) -> int:
         _print_json(search_plain(result))
     else:
         print(search_text(spec, result))
-    return DONE if result.chosen is not None else NOT_VALID
+    if result.ending == "interrupted":
+        return INTERRUPTED
+    return DONE if result.chosen is not None and result.ending == "done" else NOT_VALID
 
 
 def _export(options: argparse.Namespace) -> int:
     from fluxbore.api import export
 
-    files = [str(path) for path in export(_load(options), options.output)]
+    files = [str(path) for path in export(_load(options), options.output, force=options.force)]
     if options.json:
         _print_json({"status": "ok", "reasons": [], "files": files})
     else:
@@ -270,16 +283,17 @@ def _export(options: argparse.Namespace) -> int:
 
 def _report(options: argparse.Namespace) -> int:
     from fluxbore.api import REPORT_FILE, report
+    from fluxbore.messages import design_plain
 
     spec = _load(options)
     target = Path(options.output)
     target = target if target.suffix.lower() in (".html", ".htm") else target / REPORT_FILE
-    path = report(spec, target, picture=not options.no_picture, command=options.arguments)
+    found = report(spec, target, force=options.force, picture=not options.no_picture, command=options.arguments)
     if options.json:
-        _print_json({"status": "ok", "reasons": [], "files": [str(path)]})
+        _print_json(design_plain(found))
     else:
-        print(path)
-    return DONE
+        print("\n".join([*found.reasons, *(str(path) for path in found.files)]))
+    return DONE if found.ok else NOT_VALID
 
 
 def _design(options: argparse.Namespace) -> int:
@@ -302,7 +316,7 @@ def _design(options: argparse.Namespace) -> int:
         _print_json(design_plain(result))
     else:
         print(design_text(spec, result))
-    return DONE if result.feasible and result.evaluation.ok else NOT_VALID
+    return DONE if result.ok else NOT_VALID
 
 
 def _print_json(value: Any) -> None:

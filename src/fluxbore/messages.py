@@ -67,6 +67,7 @@ def evaluation_text(evaluation: Evaluation) -> str:
         value = getattr(evaluation.performance, name)
         if value is not None:
             lines.append(f"{name:<{width}}  {show_figure(name, value)}")
+    lines += ["", *evaluation.warnings] if evaluation.warnings else []
     if evaluation.fidelity == "network":
         from fluxbore.design.magnetic_network import UPPER_BOUND
 
@@ -162,8 +163,8 @@ def search_plain(result: SearchResult) -> dict[str, Any]:
     """The search: how it ended, start, best, chosen and history."""
     chosen = result.chosen
     return {
-        "status": "ok" if chosen is not None else "no feasible design",
-        "reasons": [] if chosen is not None else [result.stop_reason, *_misses(result)],
+        "status": "no feasible design" if chosen is None else "ok" if result.ending == "done" else result.ending,
+        "reasons": [] if chosen is not None and result.ending == "done" else [result.stop_reason],
         "stop_reason": result.stop_reason,
         "evaluations": len(result.history),
         "start": candidate_plain(result.start),
@@ -175,20 +176,6 @@ def search_plain(result: SearchResult) -> dict[str, Any]:
             for step in result.history
         ],
     }
-
-
-def _misses(result: SearchResult) -> list[str]:
-    """What the designs that came nearest still missed."""
-    sound = [step for step in result.history if step.evaluation.ok and step.checks]
-    if not sound:
-        return sorted({reason for step in result.history for reason in step.evaluation.reasons})
-    nearest = max(sound, key=lambda step: min(_margin(check) for check in step.checks))
-    return [
-        f"The nearest design misses {_limit(check)}: it has "
-        f"{_show(check.limit.subject, check.value) if check.value is not None else 'no value'}."
-        for check in nearest.checks
-        if not check.satisfied
-    ]
 
 
 def _limit(check: Check) -> str:
@@ -203,16 +190,12 @@ def _show(subject: str, value: float) -> str:
     return key.show(value) if key is not None else f"{value:.6g}"
 
 
-def _margin(check: Check) -> float:
-    return check.margin if check.margin is not None else float("-inf")
-
-
 def search_text(spec: Spec, result: SearchResult) -> str:
     """Start and chosen design side by side, and why the search ended."""
     lines = [result.stop_reason, f"{len(result.history)} designs by finite elements in {result.seconds:.0f} s."]
     chosen = result.chosen
     if chosen is None:
-        return "\n".join([*lines, "No feasible design was found.", *_misses(result)])
+        return "\n".join([*lines, "No feasible design was found."])
     lines.append("")
     for key, value in chosen.values.items():
         lines.append(f"{key}: {show_key(spec, key, result.start.values[key])} -> {show_key(spec, key, value)}")
@@ -228,22 +211,25 @@ def search_text(spec: Spec, result: SearchResult) -> str:
 
 def design_plain(result: DesignResult) -> dict[str, Any]:
     """The whole run."""
-    evaluation = to_plain(result.evaluation)
+    reasons = list(result.reasons)
+    if result.search is not None and result.search.chosen is None:
+        reasons = search_plain(result.search)["reasons"]
     return {
-        "status": "ok" if result.feasible and result.evaluation.ok else "no feasible design",
-        "reasons": evaluation["reasons"] or (search_plain(result.search)["reasons"] if result.search else []),
-        "performance": evaluation["performance"],
+        "status": result.status,
+        "reasons": reasons,
+        "performance": to_plain(result.evaluation)["performance"],
         "search": search_plain(result.search) if result.search is not None else None,
         "files": [str(path) for path in result.files],
-        "warnings": list(result.warnings),
+        "warnings": [*result.evaluation.warnings, *result.warnings],
     }
 
 
 def design_text(spec: Spec, result: DesignResult) -> str:
-    """The search's result, or the design's figures, and where the files are."""
+    """The search's result, or the design's figures, what is wrong with it, and where the files are."""
     text = search_text(spec, result.search) if result.search is not None else evaluation_text(result.evaluation)
+    bad = [] if result.ok or result.search is not None else [f"{result.status}: {' '.join(result.reasons)}"]
     top = [str(path) for path in result.files if path.parent.name != "parts"]
-    return "\n".join([text, "", *top])
+    return "\n".join([text, *bad, "", *top])
 
 
 class Bar:
