@@ -108,7 +108,7 @@ class Journal:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        self.close()
+        self.discard()
 
     def _index(self) -> None:
         """Index the records; cut off a torn last line. A line that is damaged otherwise is passed over."""
