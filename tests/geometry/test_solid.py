@@ -6,10 +6,11 @@ from typing import Any
 
 import numpy as np
 import pytest
+from actuators import table_ii
 
 from fluxbore.design import graphics
 from fluxbore.design.errors import DesignError, MissingLibraryError
-from fluxbore.design.hybrid import BackYoke, Cylinder, EndCaps, HybridActuator, Mover, Piston, Shaft, Winding
+from fluxbore.design.hybrid import HybridActuator
 from fluxbore.geometry import assembly as geometry
 from fluxbore.geometry import hybrid_parts
 from fluxbore.geometry import solid as solids
@@ -18,20 +19,6 @@ from fluxbore.geometry.assembly import Hole, Part, rectangle
 MM = 1e-3
 
 needs_gl = pytest.mark.skipif(not graphics.has_gl(), reason=f"libGL is missing: {graphics.APT_LINE}")
-
-
-def table_ii() -> HybridActuator:
-    """The prototype of Nakata and Noda (2023), Tables II and III; tube length, fin thickness and caps are assumed."""
-    return HybridActuator(
-        name="iPEHLA",
-        back_yoke=BackYoke(27 * MM, 25 * MM, 3 * MM, 10 * MM, "1010"),
-        winding=Winding(24.2 * MM, 8, 584, 0.4 * MM, "copper"),
-        cylinder=Cylinder(20 * MM, 16.1 * MM, 16 * MM, 220 * MM, "aluminium 6061"),
-        mover=Mover(12 * MM, 1.5 * MM, 4, 15.9 * MM, "N48", 1.4, 1.05, "1010", 88 * MM),
-        shaft=Shaft(8 * MM, 235 * MM, "stainless steel 304"),
-        piston=Piston(8 * MM, 16.3 * MM, 15.4 * MM, 1.8 * MM, 0.3 * MM, "POM"),
-        end_caps=EndCaps(27 * MM, 12 * MM, 5 * MM, 0.05 * MM, "aluminium 6061"),
-    )
 
 
 def variant(**sections: dict[str, Any]) -> HybridActuator:
