@@ -17,6 +17,12 @@ from itertools import pairwise
 from fluxbore.design.errors import DesignError
 from fluxbore.design.units import format_quantity
 
+BORE_DIFFERENCE = 0.05
+"""Relative; a catalogue's bore and the drawn one are the same bore but for a fit."""
+
+DENSEST_FILL = math.pi / math.sqrt(12)
+"""Of a window by round wire without insulation, in hexagonal layers; wound coils reach 0.5 to 0.7."""
+
 PHASES = ("U", "V", "W")
 
 THINNEST = 1e-6
@@ -233,10 +239,11 @@ class HybridActuator:
                 f"got {_mm(self.winding.outer_diameter)}."
             )
         copper = self.turns_per_coil * math.pi / 4 * self.winding.wire_diameter**2
-        if copper > self.coil_area:
+        if copper > DENSEST_FILL * self.coil_area:
             raise DesignError(
-                "actuator.winding.turns must fit the winding window: the copper of a coil may fill at most "
-                f"{self.coil_area * 1e6:.4g} mm^2; got {copper * 1e6:.4g} mm^2."
+                "actuator.winding.turns must fit the winding window: round wire fills at most "
+                f"{DENSEST_FILL:.1%} of a coil, {DENSEST_FILL * self.coil_area * 1e6:.4g} mm^2; "
+                f"got {copper * 1e6:.4g} mm^2."
             )
         winding = self.winding_end - self.winding_start
         if self.array_length >= winding:
@@ -254,20 +261,21 @@ class HybridActuator:
                 f"actuator.cylinder.length must exceed the chamber {_mm(chamber)} (magnet array, two pistons and the "
                 f"stroke); got {_mm(cylinder.length)}."
             )
-        if cylinder.catalogue_bore <= self.shaft.outer_diameter:
+        if not abs(cylinder.catalogue_bore / cylinder.inner_diameter - 1) <= BORE_DIFFERENCE:
+            low, high = ((1 + sign * BORE_DIFFERENCE) * cylinder.inner_diameter for sign in (-1, 1))
             raise DesignError(
-                "actuator.cylinder.catalogue_bore must exceed actuator.shaft.outer_diameter "
-                f"{_mm(self.shaft.outer_diameter)}; got {_mm(cylinder.catalogue_bore)}."
+                f"actuator.cylinder.catalogue_bore must be within {BORE_DIFFERENCE:.0%} of "
+                f"actuator.cylinder.inner_diameter, {_mm(low)} to {_mm(high)}; got {_mm(cylinder.catalogue_bore)}."
             )
         if piston.fin_inner_diameter >= cylinder.inner_diameter:
             raise DesignError(
                 "actuator.piston.fin_inner_diameter must be below actuator.cylinder.inner_diameter "
                 f"{_mm(cylinder.inner_diameter)}; got {_mm(piston.fin_inner_diameter)}."
             )
-        if piston.fin_outer_diameter < piston.fin_inner_diameter:
+        if piston.fin_outer_diameter <= cylinder.inner_diameter:
             raise DesignError(
-                "actuator.piston.fin_outer_diameter must not be below actuator.piston.fin_inner_diameter "
-                f"{_mm(piston.fin_inner_diameter)}; got {_mm(piston.fin_outer_diameter)}."
+                "actuator.piston.fin_outer_diameter must exceed actuator.cylinder.inner_diameter "
+                f"{_mm(cylinder.inner_diameter)}, or the fin does not seal; got {_mm(piston.fin_outer_diameter)}."
             )
         if piston.fin_length >= piston.length:
             raise DesignError(

@@ -46,8 +46,9 @@ def actuators(draw: st.DrawFn) -> HybridActuator:
     stroke, length, overhang = between(1 * MM, 300 * MM), between(2 * MM, 40 * MM), between(0, 20 * MM)
     chamber = 2 * pole_pairs * pitch + stroke + 2 * length
     barrel = max(chamber, 2 * sets * pitch + 2 * overhang) + between(0.1 * MM, 60 * MM)
-    fin_length, fin_inner = between(0.1, 0.9) * length, rod + between(0.2, 0.98) * (bore - rod)
-    fin_outer = min(fin_inner + between(0, 0.1) * fin_length, tube - 0.1 * MM)
+    fin_length = between(0.1, 0.9) * length
+    fin_inner = bore - between(0.1, 1) * min(0.05 * fin_length, 0.8 * (bore - rod))
+    fin_outer = bore + between(0.1, 1) * min(0.05 * fin_length, tube - bore - 0.1 * MM)
     # A lip of at most 0.8 of the room above the shaft leaves a tenth of it for the hub, on which the piston seats.
     room = (fin_inner - rod) / 2
     seat = rod + 0.15 * room
