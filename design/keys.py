@@ -140,7 +140,11 @@ def _exact(value: float, dimension: str) -> str:
     unit = DIMENSIONS[dimension].units[preferred]
     if unit.offset == 0.0:
         number = Decimal(repr(float(value))) / Decimal(repr(unit.factor))
-        text = f"{number.normalize():g} {preferred}"
+        # Plain digits for sizes that people write so; Decimal's own form of 10 is 1E+1.
+        plain = f"{number:f}" if -7 <= number.adjusted() <= 9 else f"{number.normalize():E}"
+        if "." in plain and "E" not in plain:
+            plain = plain.rstrip("0").rstrip(".")
+        text = f"{plain} {preferred}"
         if parse_quantity(text, dimension, "value") == value:
             return text
     for digits in (6, 9, 12, 15, 16, 17):

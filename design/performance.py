@@ -72,6 +72,9 @@ class Figure:
     doc: str
 
 
+SMALL_FIELD = 0.01
+"""T, below which a flux density is shown in millitesla."""
+
 _PLAIN = {"count": "1", "fraction": "1", "power": "W"}
 
 FIGURES: dict[str, Figure] = {
@@ -101,6 +104,10 @@ def show_figure(name: str, value: float | None, digits: int = 5) -> str:
     if value is None:
         return "-"
     figure = FIGURES[name]
+    if figure.dimension == "fraction":
+        return f"{100 * value:.{digits}g} %"
+    if figure.dimension == "flux density" and 0 < abs(value) < SMALL_FIELD:
+        return f"{1e3 * value:.{digits}g} mT"
     if figure.dimension in DIMENSIONS:
         return format_quantity(value, figure.dimension, digits)
     return f"{value:.{digits}g}" + ("" if figure.si == "1" else f" {figure.si}")

@@ -38,6 +38,7 @@ class Archive:
         self._memory: dict[Point, Candidate] = {}
         self.history: list[Candidate] = []
         self.best_so_far: list[int | None] = []
+        self.reused = 0
 
     @property
     def best(self) -> Candidate | None:
@@ -103,6 +104,7 @@ class Archive:
     def _keep(self, point: Point, made: Candidate, reused: bool) -> None:
         self._memory[point] = made
         self.history.append(made)
+        self.reused += reused
         best = self.best_so_far[-1] if self.best_so_far else None
         eligible = made.feasible and made.objective is not None and self.box.contains(made.values)
         if eligible and (best is None or better(made, self.history[best], self.objective)):

@@ -63,6 +63,7 @@ class SearchResult:
     after each step (None before there was one).
     network_start : the network's own optimum, where the FEM search began.
     rounded : the best design at the workshop's resolution, re-evaluated; None where no variable has a resolution.
+    reused : how many designs of the history came from an earlier run's journal; seconds are this run's.
     stop_reason : a sentence; ending : what sort of end that was, whatever had been found by then.
     """
 
@@ -75,6 +76,12 @@ class SearchResult:
     stop_reason: str
     seconds: float
     ending: SearchEnding = "done"
+    reused: int = 0
+
+    @property
+    def replayed(self) -> bool:
+        """Whether most of the search was an earlier run's, so that ``seconds`` says nothing of its cost."""
+        return 2 * self.reused > len(self.history)
 
     @property
     def chosen(self) -> Candidate | None:

@@ -88,6 +88,7 @@ def run_search(
         stop_reason=reason,
         seconds=time.monotonic() - begin,
         ending=stages.ending,
+        reused=archive.reused,
     )
 
 

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
+from tempfile import TemporaryFile
 from time import monotonic
 
 from fluxbore.actuators import actuator_of
@@ -92,7 +93,7 @@ def sweep(
     with _workshop(spec, folder, workers, force) as (place, journal, executor):
         results = run_sweeps(spec, journal, executor, fidelity, progress)
         if place is not None:
-            place.write(FILE_NAME, results_table(spec, results))
+            _write_sweeps(place, results_table(spec, results))
     return results
 
 
@@ -149,6 +150,7 @@ def report(
     spec, path = _spec(spec), Path(path)
     if path.exists() and not force:
         raise OutputError(f"{path} must not exist yet; it does (see --force).")
+    _check_writable(path.parent)
     found = _judged(spec, evaluate_design(spec))
     return replace(found, files=(_write_report(spec, found, path, None, picture, command, None),))
 
@@ -193,12 +195,23 @@ def design(
             except FluxboreError as error:
                 found = replace(found, warnings=(f"No STEP files: {error}",))
         found = replace(found, sweeps=tuple(sweeps))
-        seconds = monotonic() - begin
+        replayed = found.search is not None and found.search.replayed
+        seconds = None if replayed else monotonic() - begin
         files.append(_write_report(spec, found, place.path / REPORT_FILE, separate, picture, command, seconds))
         if say is not None:
             for warning in found.warnings:
                 say(warning)
     return replace(found, files=tuple(files))
+
+
+def _check_writable(folder: Path) -> None:
+    """Fail before the work, not after it, where a folder cannot take the result."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with TemporaryFile(dir=folder):
+            pass
+    except OSError as error:
+        raise OutputError(f"{folder} cannot be written: {error.strerror or error}.") from error
 
 
 def _searched(spec: Spec, search: SearchResult) -> DesignResult:
@@ -251,6 +264,14 @@ def _spec(spec: Spec | Path | str) -> Spec:
 def _need(present: bool, key: str, what: str) -> None:
     if not present:
         raise SpecError(f"{key} must be given for {what}; got none.")
+
+
+def _write_sweeps(place: Folder, table: str) -> None:
+    """Write the sweeps' table, unless the one that stands there begins with it: a search's rows follow."""
+    target = place.path / FILE_NAME
+    before = target.read_text(encoding="utf-8") if place.resumed and target.exists() else ""
+    if not before.startswith(table):
+        place.write(FILE_NAME, table)
 
 
 def _write_cad(spec: Spec, folder: Path) -> list[Path]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 import time
 from collections.abc import Mapping, Sequence
@@ -54,7 +55,30 @@ def spec_text(spec: Spec) -> str:
         notes = "" if key.name in spec.given else "  (follows)"
         notes += "".join(f"  ({note.status})" for note in spec.notes if note.key == key.name)
         lines.append(f"{key.name:<{width}}  {key.show(spec.values[key.name])}{notes}")
-    return "\n".join([*lines, "", "The specification is sound."])
+    return "\n".join([*lines, *_study_lines(spec), "", "The specification is sound."])
+
+
+def _study_lines(spec: Spec) -> list[str]:
+    """The study in words: objective, variables, limits, sweeps."""
+    study = spec.study
+    lines = []
+    if study.objective is not None:
+        lines.append(f"{'maximise' if study.objective.maximise else 'minimise'} {study.objective.figure}")
+    for item in study.variables:
+        key = spec.kind.known(item.key)
+        step = f" in steps of {key.difference.show(item.resolution)}" if item.resolution is not None else ""
+        lines.append(
+            f"vary {item.key} from {show_key(spec, item.key, item.lower)} to "
+            f"{show_key(spec, item.key, item.upper)}{step}"
+        )
+    for limit in study.constraints:
+        for word, value in (("at most", limit.upper), ("at least", limit.lower)):
+            if value is not None:
+                shown = f"{value:g} x the start's" if limit.relative_to_start else _show(limit.subject, value)
+                lines.append(f"keep {limit.subject} {word} {shown}")
+    lines += [f"hold {key}" for key in study.hold]
+    lines += [f"sweep {sweep.name}: {sweep.size} designs" for sweep in study.sweeps]
+    return ["", *lines] if lines else []
 
 
 def evaluation_text(evaluation: Evaluation) -> str:
@@ -190,12 +214,27 @@ def _show(subject: str, value: float) -> str:
     return key.show(value) if key is not None else f"{value:.6g}"
 
 
+def _failures(result: SearchResult) -> list[str]:
+    """The commonest reasons of failed designs with their counts; sentences that differ by numbers alone are one."""
+    alike: dict[str, list[str]] = {}
+    for step in result.history:
+        if not step.evaluation.ok:
+            reason = " ".join(step.evaluation.reasons)
+            alike.setdefault(re.sub(r"[\d.]+", "#", reason), []).append(reason)
+    common = sorted(alike.values(), key=len, reverse=True)[:3]
+    return [f"{len(reasons)} of them failed, such as: {reasons[0]}" for reasons in common]
+
+
 def search_text(spec: Spec, result: SearchResult) -> str:
     """Start and chosen design side by side, and why the search ended."""
-    lines = [result.stop_reason, f"{len(result.history)} designs by finite elements in {result.seconds:.0f} s."]
+    cost = f"{result.reused} of them from the journal" if result.replayed else f"in {result.seconds:.0f} s"
+    lines = [result.stop_reason, f"Search: {len(result.history)} designs by finite elements, {cost}."]
+    lines += _failures(result)
     chosen = result.chosen
     if chosen is None:
         return "\n".join([*lines, "No feasible design was found."])
+    if dict(chosen.values) == dict(result.start.values):
+        lines.append("Nothing better than the start was found.")
     lines.append("")
     for key, value in chosen.values.items():
         lines.append(f"{key}: {show_key(spec, key, result.start.values[key])} -> {show_key(spec, key, value)}")

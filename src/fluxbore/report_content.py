@@ -26,6 +26,7 @@ NOT_CHECKED = (
     "Losses besides the copper's: eddy currents in the conductive cylinder, hysteresis in yoke and rings.",
     "Friction, wear and air leakage of the seal fins.",
     "Tolerances of manufacture: every dimension is taken as drawn.",
+    "How the parts are held together: fastening of magnets, pistons, yoke and caps is not drawn.",
     "Anything that is not rotationally symmetric: lead wires, eccentricity, ports in the field.",
 )
 """What this version of the program does not look at; the report says so."""
