@@ -12,6 +12,7 @@ import pytest
 
 from fluxbore.cli import main
 from fluxbore.design.graphics import has_gl
+from fluxbore.design.spec import loads
 
 TOP = Path(__file__).parent.parent
 
@@ -74,6 +75,20 @@ def test_the_position_figure_is_the_one_in_the_docs(tmp_path: Path) -> None:
     outlines = re.compile(r'<g id="patch_\d+">')
     kept = (TOP / "docs" / "position.svg").read_text(encoding="utf-8")
     assert len(outlines.findall(made.read_text(encoding="utf-8"))) == len(outlines.findall(kept))
+
+
+def test_the_reference_is_the_programs_own() -> None:
+    """A key, figure, unit or material that changed while the reference page did not."""
+    page = runpy.run_path(str(TOP / "docs" / "reference.py"))["page"]
+    assert page() == (TOP / "docs" / "reference.md").read_text(encoding="utf-8")
+
+
+def test_the_tutorials_tables_can_be_read() -> None:
+    """A section that the tutorial shows and that the reader refuses."""
+    text = (TOP / "examples" / "ipehla.toml").read_text(encoding="utf-8")
+    spec = loads(text + "\n" + "\n".join(blocks(TOP / "docs" / "tutorial.md", "toml")))
+    assert spec.materials["our iron"].curve is not None
+    assert spec.study.sweeps[-1].size == 9
 
 
 def test_links_between_pages_lead_somewhere() -> None:
