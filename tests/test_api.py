@@ -134,3 +134,12 @@ def test_a_script_checks_under_mypy_strict(tmp_path):
     command = [sys.executable, "-m", "mypy", "--strict", "--config-file", config, str(tmp_path / "script.py")]
     done = subprocess.run(command, cwd=TOP, capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_every_kind_of_actuator_stands_in_every_table() -> None:
+    """A kind that specifications can name and that nothing can evaluate, draw or report."""
+    from fluxbore.actuators import ACTUATORS
+    from fluxbore.design.spec import KINDS
+    from fluxbore.optimize.evaluate import MODELS
+
+    assert set(KINDS) == set(MODELS) == set(ACTUATORS)

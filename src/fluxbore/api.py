@@ -130,7 +130,10 @@ def export(spec: Spec | Path | str, folder: Path | str, *, force: bool = False) 
     Raises MissingLibraryError where cadquery or libGL is missing, with the line that installs it; OutputError where
     the folder holds other files and is not to be taken by ``force``.
     """
+    from fluxbore.geometry.solid import load_cadquery
+
     spec = _spec(spec)
+    load_cadquery()  # before the folder is touched: without it there is nothing to write
     with open_folder(folder, spec, force) as place:
         return _write_cad(spec, place.path)
 
