@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from matplotlib.tri import Triangulation
 
 LINES = 24
-"""Field lines between the smallest and the largest flux."""
+"""Field lines between the smallest and the largest flux, about: the step between two is a round number."""
 
 SMOOTHED = 8_000
 """Most triangles in a picture whose field lines are drawn through a smooth interpolant; finer meshes need none."""
@@ -38,7 +38,27 @@ def colour_limit(*maps: FluxMap | None) -> float:
     return max(math.ceil(max(tops) * 10) / 10, 0.1)
 
 
-def machine_strip(field: FluxMap, limit: float) -> Drawing:
+def flux_step(*maps: FluxMap | None) -> float:
+    """The step of psi (Wb/rad) between field lines, the same for every map of a page; a round number of webers."""
+    present = [item for item in maps if item is not None]
+    span = max(float(item.flux.max()) for item in present) - min(float(item.flux.min()) for item in present)
+    if span <= 0:
+        return 1.0
+    rough = 2 * math.pi * span / LINES
+    power = 10.0 ** math.floor(math.log10(rough))
+    return (
+        min((1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0), key=lambda n: abs(n - rough / power))
+        * power
+        / (2 * math.pi)
+    )
+
+
+def flux_between(step: float) -> str:
+    """What flows between neighbouring lines, round the whole circumference."""
+    return f"{2 * math.pi * step * 1e6:.3g}\u00a0µWb"
+
+
+def machine_strip(field: FluxMap, limit: float, step: float) -> Drawing:
     """The whole machine in section, above and below the axis."""
     reach = _outside(field)
     low, high = _extent(field)
@@ -47,7 +67,7 @@ def machine_strip(field: FluxMap, limit: float) -> Drawing:
     with style():
         canvas = new_figure(1000.0, 945 * 2 * top / (end - start) + 52)
         plot = canvas.subplots()
-        _field(plot, field, limit, (start, end, top), mirrored=True, edge=0.35, width=0.5)
+        _field(plot, field, limit, step, (start, end, top), mirrored=True, edge=0.35, width=0.5)
         plot.set_xlabel("z (mm)")
         plot.set_ylabel("r (mm)")
         place = f"{field.position * 1e3:.4g} mm"
@@ -56,22 +76,20 @@ def machine_strip(field: FluxMap, limit: float) -> Drawing:
         return drawing(canvas, "flux-machine", alt, caption, wide=True, dpi=130)
 
 
-def close_up(field: FluxMap, spec: Spec, limit: float, name: str, title: str) -> Drawing:
+def close_up(field: FluxMap, spec: Spec, limit: float, step: float, name: str, title: str) -> Drawing:
     """Two pole pitches in the middle of the mover, from the axis to a little outside the yoke."""
     start, end = _two_pitches(field, spec)
     top = 1.3 * _outside(field)
     with style():
         canvas = new_figure(500.0, 430.0)
         plot = canvas.subplots()
-        mesh = _field(plot, field, limit, (start, end, top), mirrored=False, edge=0.8, width=0.8)
+        mesh = _field(plot, field, limit, step, (start, end, top), mirrored=False, edge=0.8, width=0.8)
         _labels(plot, field, start, end, top)
         _colour_bar(canvas, plot, mesh)
         plot.set_xlabel("z (mm)")
         plot.set_ylabel("r (mm)")
-        step = (float(field.flux.max()) - float(field.flux.min())) / LINES
-        between = f"{2 * np.pi * step * 1e6:.3g} µWb"
         alt = f"{title}: flux density, field lines and parts over two pole pitches."
-        caption = f"{title}: two pole pitches at the middle of the mover; {between} flow between neighbouring lines."
+        caption = f"{title}: two pole pitches at the middle of the mover."
         return drawing(canvas, name, alt, caption, dpi=150)
 
 
@@ -79,6 +97,7 @@ def _field(
     plot: Axes,
     field: FluxMap,
     limit: float,
+    step: float,
     window: tuple[float, float, float],
     *,
     mirrored: bool,
@@ -98,14 +117,15 @@ def _field(
     at_nodes = len(field.flux_density) == len(field.r)
     density = field.flux_density[used] if at_nodes else field.flux_density[seen]
     # |B| has no business above the scale's top: the raster is clipped there, and the bar's arrow says so.
-    levels = np.linspace(float(field.flux.min()), float(field.flux.max()), LINES + 1)
-    levels = levels + (levels[1] - levels[0]) / 2
+    # Half a step off zero: the axis itself is a level line of no interest.
+    first, last = math.floor(float(field.flux.min()) / step), math.ceil(float(field.flux.max()) / step)
+    levels: Array = np.array([(i + 0.5) * step for i in range(first, max(last, first + 1))])
     mesh: Any = None
     for sign in (1, -1) if mirrored else (1,):
         grid = Triangulation(field.z[used] * 1e3, sign * field.r[used] * 1e3, triangles)
         look: dict[str, Any] = {"cmap": _colours(), "vmin": 0, "vmax": limit, "rasterized": True}
         mesh = plot.tripcolor(grid, density, shading="gouraud" if at_nodes else "flat", **look)
-        for line in _level_lines(plot, grid, field.flux[used], levels[:-1], region):
+        for line in _level_lines(plot, grid, field.flux[used], levels, region):
             plot.plot(line[:, 0], line[:, 1], color=DARK, lw=width, alpha=0.75, solid_capstyle="butt")
         for _, outline in field.outlines:
             closed = np.vstack([outline, outline[:1]]) * 1e3

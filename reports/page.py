@@ -11,11 +11,13 @@ from typing import TYPE_CHECKING, Any
 
 from fluxbore.design.errors import OutputError
 from fluxbore.design.magnetic_network import UPPER_BOUND
+from fluxbore.design.performance import FIGURES
 from fluxbore.optimize.folder import write_atomic
 from fluxbore.reports import curves, flux_picture, section_drawing, story, study_tables, tables
 from fluxbore.reports.content import ReportContent
 from fluxbore.reports.svg import Drawing
-from fluxbore.reports.wording import capital, duration, key_label, symbol
+from fluxbore.reports.tables import Table
+from fluxbore.reports.wording import capital, duration, figure_label, greek, key_label, meaning, symbol
 
 if TYPE_CHECKING:
     from markupsafe import Markup
@@ -67,11 +69,14 @@ def _context(content: ReportContent) -> Mapping[str, Any]:
     picture, drawn = _picture(content)
     objective = spec.study.objective
     search = content.search
+    warnings = design.warnings if design is not None else ()
+    comparison = tables.comparison(content)
     return {
         "title": story.title(content),
         "is_study": content.is_study,
         "asked": story.asked(spec),
         "reached": story.reached(content),
+        "warnings": warnings,
         "tiles": study_tables.tiles(content),
         "requirements": study_tables.requirements(content),
         "picture": picture,
@@ -89,20 +94,22 @@ def _context(content: ReportContent) -> Mapping[str, Any]:
             curves.search_path(spec, search, content.one_at_a_time) if search else None,
         ),
         "history": study_tables.history(content, search, objective) if search and objective else None,
-        "search_time": duration(search.seconds) if search else "",
+        "effort": story.effort(search) if search else "",
+        "failures": story.failures(search) if search else "",
         "field": _field(content),
         "force_figures": _present(*_force(content)) if sound else (),
         "force_text": [text for text in (story.routes(sound), story.ripple(sound)) if text] if sound else [],
         "positions": tables.positions(sound) if sound else None,
-        "comparison": tables.comparison(content),
-        "upper_bound": "The network's force constant is equation (2) of Nakata and Noda (2023). " + UPPER_BOUND
+        "comparison": comparison,
+        "meanings": _meanings(comparison),
+        "upper_bound": "The network's force constant is equation (2) of Nakata and Noda (2023). " + greek(UPPER_BOUND)
         if content.design_network is not None
         else "",
         "slots": curves.slot_curve(content.slots) if content.slots is not None else None,
         "slots_note": content.slots.note if content.slots is not None else "",
         "parts": tables.parts(content.parts),
         "seen": story.seen(content),
-        "checked": content.checked,
+        "checked": [text for text in content.checked if text not in warnings],
         "not_checked": content.not_checked,
         "notes": [
             {"key": note.key, "label": capital(key_label(spec, note.key)), "status": note.status, "reason": note.reason}
@@ -144,14 +151,15 @@ def _field(content: ReportContent) -> dict[str, Any] | None:
     main = chosen or start
     if main is None:
         return None
-    limit = flux_picture.colour_limit(chosen, start)
+    limit, step = flux_picture.colour_limit(chosen, start), flux_picture.flux_step(chosen, start)
     near = []
     if start is not None and (chosen is None or content.is_study):
-        near.append(flux_picture.close_up(start, content.spec, limit, "flux-start", "Start"))
+        near.append(flux_picture.close_up(start, content.spec, limit, step, "flux-start", "Start"))
     if chosen is not None:
         title = "Chosen" if content.is_study else "Design"
-        near.append(flux_picture.close_up(chosen, content.design_spec, limit, "flux-chosen", title))
-    return {"strip": flux_picture.machine_strip(main, limit), "near": near}
+        near.append(flux_picture.close_up(chosen, content.design_spec, limit, step, "flux-chosen", title))
+    between = flux_picture.flux_between(step)
+    return {"strip": flux_picture.machine_strip(main, limit, step), "near": near, "between": between}
 
 
 def _force(content: ReportContent) -> tuple[Drawing | None, ...]:
@@ -176,6 +184,13 @@ def _symbols(content: ReportContent) -> list[tuple[str, str]]:
         ("g_ac", "radial gap between magnets and winding"),
     ]
     return [*field, *plain]
+
+
+def _meanings(comparison: Table | None) -> list[tuple[str, str]]:
+    """The figures of the comparison and what each of them is."""
+    shown = {row[0].text for row in comparison.rows} if comparison is not None else set()
+    labels = {name: capital(figure_label(name)) for name in FIGURES}
+    return [(label, meaning(name)) for name, label in labels.items() if label in shown]
 
 
 def _present(*drawings: Drawing | None) -> tuple[Drawing, ...]:

@@ -2,23 +2,46 @@
 
 from __future__ import annotations
 
+import re
+from collections import Counter
+
+from fluxbore.design.performance import Performance
 from fluxbore.design.spec import Spec
 from fluxbore.design.study import Constraint, Variable
 from fluxbore.optimize.evaluation import Evaluation
-from fluxbore.optimize.outcome import SweepResult
+from fluxbore.optimize.outcome import Candidate, SearchResult, SweepResult
 from fluxbore.reports.content import ReportContent
 from fluxbore.reports.tables import Cell
 from fluxbore.reports.wording import (
     change,
+    duration,
     figure_label,
     figure_scale,
     key_label,
     key_range,
     key_scale,
     listing,
+    significant,
     subject_label,
     subject_scale,
 )
+
+PRICE = {
+    "force_constant": -1,
+    "motor_constant": -1,
+    "winding_resistance": 1,
+    "moving_mass": 1,
+    "stray_field": 1,
+    "cogging_force": 1,
+    "pneumatic_force_advance": -1,
+    "pneumatic_force_retract": -1,
+    "outer_diameter": 1,
+    "length": 1,
+}
+"""Figures that can be the price of a gain, with the sign of the change that makes them worse."""
+
+NOTABLE_PRICE = 5e-4
+"""Relative change from which a figure that got worse is told."""
 
 
 def asked(spec: Spec) -> tuple[str, ...]:
@@ -54,11 +77,18 @@ def reached(content: ReportContent) -> Cell:
     if broken:
         names = listing(subject_label(content.spec, check.limit.subject) for check in broken)
         return Cell(f"{len(broken)} of {len(checks)} requirements are not met: {names}.", "bad")
+    if not checks:
+        return Cell("The design was evaluated; no requirement was set.", "warn" if design.warnings else "muted")
     open_ = sum(check.value is None for check in checks)
-    met = f"All {len(checks)} requirements are met" if len(checks) > 1 else "The requirement is met"
-    if checks:
-        return Cell(f"{met}; {open_} could not be checked." if open_ else f"{met}.", "muted" if open_ else "good")
-    return Cell("The design was evaluated; no requirement was set.", "muted")
+    if open_:
+        return Cell(
+            f"{len(checks) - open_} of {len(checks)} requirements are met; {open_} could not be checked.", "muted"
+        )
+    met = {1: "The requirement is met", 2: "Both requirements are met"}
+    text = met.get(len(checks), f"All {len(checks)} requirements are met")
+    if design.warnings:
+        return Cell(f"{text}, but with {'a warning' if len(design.warnings) == 1 else 'warnings'}.", "warn")
+    return Cell(f"{text}.", "good")
 
 
 def gain(content: ReportContent) -> tuple[str, ...]:
@@ -69,10 +99,21 @@ def gain(content: ReportContent) -> tuple[str, ...]:
     label = figure_label(objective.figure)
     best, start, single = search.chosen, search.start, content.one_at_a_time
     scale = figure_scale(objective.figure, [best.objective, start.objective])
-    sentences = [
-        f"The chosen design has a {label} of {scale.quantity(best.objective)}, "
-        f"{change(start.objective, best.objective)} against the start’s {scale.quantity(start.objective)}."
-    ]
+    if dict(best.values) == dict(start.values):
+        sentences = [
+            "Nothing better than the start was found.",
+            f"The start is the chosen design, with a {label} of {scale.quantity(best.objective)}.",
+        ]
+    else:
+        more = change(start.objective, best.objective)
+        against = f"{more} against the start’s {scale.quantity(start.objective)}"
+        broken = _broken(content.spec, start)
+        against += f" (which breaks {broken})" if broken else ""
+        paid = price(start.evaluation.performance, best.evaluation.performance, objective.figure)
+        sentences = [
+            f"The chosen design has a {label} of {scale.quantity(best.objective)}"
+            f"{f', {against}' if more else ''}{f'; the price: {paid}' if paid else ''}."
+        ]
     if search.best is not None and search.best is not search.chosen and search.best.objective != best.objective:
         sentences.append(
             f"Before it was rounded to the workshop’s steps the joint optimum reached "
@@ -93,12 +134,27 @@ def gain(content: ReportContent) -> tuple[str, ...]:
         more = change(single.objective, best.objective)
         sentences.append(f"{found} and {scale.quantity(single.objective)}; the chosen design is {more} against it.")
     else:
-        broken = listing(subject_label(content.spec, c.limit.subject) for c in single.checks if not c.satisfied)
         sentences.append(
-            f"{found} and {scale.quantity(single.objective)}, but breaks the limit on {broken}: "
-            "it could not have been chosen, so the two cannot be compared as designs."
+            f"{found} and {scale.quantity(single.objective)}, but it breaks {_broken(content.spec, single)}, "
+            "so it is no alternative."
         )
     return tuple(sentences)
+
+
+def price(before: Performance, after: Performance, objective: str) -> str:
+    """The key figures beside the objective that got worse, each with its change."""
+    worse = []
+    for name, sign in PRICE.items():
+        old, new = getattr(before, name), getattr(after, name)
+        if name != objective and old and new is not None and sign * (new - old) > NOTABLE_PRICE * abs(old):
+            worse.append(f"{figure_label(name)} {change(old, new)}")
+    return listing(worse)
+
+
+def _broken(spec: Spec, item: Candidate) -> str:
+    """``the limit on the stray field``; empty where all limits hold."""
+    names = dict.fromkeys(f"the {subject_label(spec, c.limit.subject)}" for c in item.checks if not c.satisfied)
+    return f"the {'limit' if len(names) == 1 else 'limits'} on {listing(names)}" if names else ""
 
 
 def active(content: ReportContent) -> str:
@@ -108,9 +164,82 @@ def active(content: ReportContent) -> str:
     names = [
         f"the {subject_label(content.spec, check.limit.subject)}" for check in content.design_checks if check.active
     ]
-    if not names:
-        return "No requirement is at its limit in the chosen design."
-    return f"At its limit in the chosen design: {listing(names)}."
+    found = [f"At its limit in the chosen design: {listing(names)}."] if names else []
+    found += [text for text in (_left_by_rounding(content), _nearest_step(content)) if text]
+    return " ".join(found) or "No requirement is at its limit in the chosen design."
+
+
+def _left_by_rounding(content: ReportContent) -> str:
+    """What the steps of the workshop left unused of the limits that the optimum had used up."""
+    search = content.search
+    if search is None or search.best is None or search.chosen is not search.rounded:
+        return ""
+    used = {(check.limit.subject, check.limit.sense) for check in search.best.checks if check.active}
+    left = [
+        f"{100 * check.margin:.2g}\u00a0% of the limit on the {subject_label(content.spec, check.limit.subject)}"
+        for check in content.design_checks
+        if (check.limit.subject, check.limit.sense) in used and not check.active and check.margin is not None
+    ]
+    return f"Rounding to the workshop’s steps left {listing(left)} unused." if left else ""
+
+
+def _nearest_step(content: ReportContent) -> str:
+    """Why the chosen design is not the step nearest to the optimum, where the search has seen that step."""
+    search, spec = content.search, content.spec
+    if search is None or search.best is None or search.rounded is None or search.chosen is not search.rounded:
+        return ""
+    steps = {variable.key: variable.resolution for variable in spec.study.variables}
+    nearest = {}
+    for key, value in search.best.values.items():
+        step = steps.get(key)
+        nearest[key] = round(value / step) * step if step else value
+
+    def there(item: Candidate) -> bool:
+        return all(abs(item.values[key] - value) <= 1e-6 * abs(value) + 1e-12 for key, value in nearest.items())
+
+    seen = next((item for item in search.history if there(item)), None)
+    if seen is None or there(search.rounded) or seen.feasible:
+        return ""
+    place = listing(
+        f"{key_label(spec, key)} {key_scale(spec, key, [value]).quantity(value)}"
+        for key, value in nearest.items()
+        if steps.get(key)
+    )
+    broken = _broken(spec, seen)
+    why = f"breaks {broken}" if seen.evaluation.ok and broken else "has no result"
+    return (
+        f"The step nearest to the optimum, {place}, {why}; the chosen design is the best feasible one of those tried."
+    )
+
+
+def effort(search: SearchResult) -> str:
+    """``33 designs by finite elements in 41 s.``; seconds say nothing of designs that an earlier run computed.
+
+    A single design in the journal need not be an earlier run's: a sweep of this one may have passed through the start.
+    """
+    count, reused = len(search.history), search.reused
+    designs = f"{count} {'design' if count == 1 else 'designs'} by finite elements"
+    if search.replayed:
+        return f"{designs}, {'all' if reused >= count else reused} of them from an earlier run."
+    known = f", {reused} of them already in the journal" if reused else ""
+    return f"{designs} in {duration(search.seconds)}{known}."
+
+
+def failures(search: SearchResult) -> str:
+    """How many designs of the search have no result, and the commonest reasons; numbers in a reason do not matter."""
+    lost = [item.evaluation for item in search.history if not item.evaluation.ok]
+    if not lost:
+        return ""
+    texts = [" ".join(item.reasons) or item.status for item in lost]
+    kinds = [re.sub(r"[-−]?\d[\d.,e+-]*", "#", text) for text in texts]
+    example = dict(zip(reversed(kinds), reversed(texts), strict=True))
+    common = Counter(kinds).most_common(3)
+    listed = "; ".join(f"{example[kind].rstrip('.')} ({count} of them)" for kind, count in common)
+    rest = len(lost) - sum(count for _, count in common)
+    more = f"; other reasons ({rest} of them)" if rest else ""
+    if len(lost) == 1:
+        return f"1 of {len(search.history)} designs has no result: {texts[0].rstrip('.')}."
+    return f"{len(lost)} of {len(search.history)} designs have no result: {listed}{more}."
 
 
 def sweep_finding(spec: Spec, result: SweepResult, figure: str, maximise: bool) -> str:
@@ -174,7 +303,7 @@ def seen(content: ReportContent) -> tuple[str, ...]:
         steps, residual = max(p.iterations for p in design.positions), max(p.residual for p in design.positions)
         found.append(
             f"Newton’s iteration converged at all {len(design.positions)} positions: at most {steps} steps, "
-            f"largest relative residual {residual:.1e}."
+            f"largest relative residual {significant(residual, 2)}."
         )
         found.append(routes(design))
     network = content.design_network

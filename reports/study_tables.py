@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from fluxbore.design.performance import FIGURES
 from fluxbore.design.spec import Spec
 from fluxbore.design.study import Objective
 from fluxbore.optimize.outcome import Candidate, Check, SearchResult
@@ -19,6 +20,8 @@ from fluxbore.reports.wording import (
     key_range,
     key_scale,
     limit_text,
+    listing,
+    meaning,
     subject_label,
     subject_scale,
     symbol,
@@ -47,6 +50,7 @@ class Tile:
     unit: str
     before: str
     change: str
+    meaning: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,8 +77,9 @@ def tiles(content: ReportContent) -> tuple[Tile, ...]:
         before = getattr(start.performance, name) if start is not None else None
         if value is not None:
             scale = figure_scale(name, [value, before])
+            more = change(before, value)
             old = f"start {scale.quantity(before)}" if before is not None else ""
-            found.append(Tile(capital(figure_label(name)), scale.number(value), scale.unit, old, change(before, value)))
+            found.append(Tile(capital(figure_label(name)), scale.number(value), scale.unit, old, more, meaning(name)))
     return tuple(found[:6])
 
 
@@ -108,7 +113,7 @@ def requirements(content: ReportContent) -> Table | None:
 def verdict(check: Check) -> Cell:
     """Whether a limit holds, in words; by how much it is broken, since rounded figures can look equal."""
     if check.value is None:
-        return Cell("? not checked", "muted")
+        return Cell("? not checked", "muted") if check.satisfied else Cell("✗ not known, so not met", "bad")
     if not check.satisfied:
         by = f" by {100 * -check.margin:.2g}\u00a0%" if check.margin is not None and check.margin < 0 else ""
         return Cell(f"✗ broken{by}", "bad")
@@ -171,7 +176,7 @@ def candidates(content: ReportContent) -> Table | None:
         (
             Cell(_named(name, item, search)),
             Cell(scale.number(item.objective), "strong" if item is search.chosen else ""),
-            Cell(change(search.start.objective, item.objective) or DASH),
+            Cell(_against(search.start, item)),
             _standing(content, item),
         )
         for name, item in present
@@ -203,7 +208,7 @@ def _at_bound(value: float, lower: float, upper: float) -> Cell:
     near = AT_BOUND * (upper - lower)
     if value <= lower + near:
         return Cell("at its lower bound", "bad")
-    return Cell("at its upper bound", "bad") if value >= upper - near else Cell("inside", "muted")
+    return Cell("at its upper bound", "bad") if value >= upper - near else Cell("no", "muted")
 
 
 def _exact(spec: Spec, key: str, value: float | None) -> str:
@@ -215,6 +220,23 @@ def _named(name: str, item: Candidate, search: SearchResult) -> str:
     return name + " (network)" * (item.evaluation.fidelity == "network") + " – chosen" * (item is search.chosen)
 
 
+def _against(start: Candidate, item: Candidate) -> str:
+    """The change of the objective; figures of two routes are not set against each other."""
+    if item.evaluation.fidelity != start.evaluation.fidelity:
+        return DASH
+    return change(start.objective, item.objective) or DASH
+
+
+def _unknown(content: ReportContent, item: Candidate) -> list[str]:
+    """The figures under a limit that the candidate's route cannot give."""
+    subjects = dict.fromkeys(limit.subject for limit in content.spec.study.constraints)
+    return [
+        figure_label(name)
+        for name in subjects
+        if name in FIGURES and getattr(item.evaluation.performance, name) is None
+    ]
+
+
 def _standing(content: ReportContent, item: Candidate) -> Cell:
     """How a candidate stands to the limits, in words."""
     if not item.evaluation.ok:
@@ -222,5 +244,11 @@ def _standing(content: ReportContent, item: Candidate) -> Cell:
     broken = [subject_label(content.spec, check.limit.subject) for check in item.checks if not check.satisfied]
     if broken:
         return Cell(f"✗ breaks {', '.join(broken)}", "bad")
+    unknown = _unknown(content, item)
+    if unknown:
+        route = "the network" if item.evaluation.fidelity == "network" else "the finite elements"
+        return Cell(f"{listing(unknown)} not known to {route}", "muted")
     active = [subject_label(content.spec, check.limit.subject) for check in item.checks if check.active]
+    if item.evaluation.warnings:
+        return Cell("✓ met, but with a warning", "warn")
     return Cell(f"✓ met; active: {', '.join(active)}" if active else "✓ met", "good")

@@ -28,7 +28,7 @@ _UNIT_SIGNS = {
     "1": "",
 }
 
-_GREEK = {"tau": "τ", "mu": "µ", "lambda": "λ", "Delta": "Δ"}
+_GREEK = {"tau": "τ", "mu": "µ", "lambda": "λ", "Delta": "Δ", "pi": "π"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -137,6 +137,22 @@ def figure_label(name: str) -> str:
     return own.get(name, name.replace("_", " "))
 
 
+def meaning(name: str) -> str:
+    """What a figure of `Performance` is, as a sentence without its end."""
+    own = {
+        "force_constant_linkage": "force constant from the fundamental of the phases’ flux linkages: 3/2 (π/τ) λ_1",
+        "pneumatic_force_retract": "gauge pressure times the catalogue bore’s area less the shaft’s",
+        "ring_flux_density": f"{FIGURES['ring_flux_density'].doc}: not the peak that the map of the field shows",
+    }
+    text = own.get(name, FIGURES[name].doc)
+    return capital(greek(text).replace("^2", "²").replace("'", "’"))
+
+
+def greek(text: str) -> str:
+    """The names of Greek letters as letters: ``tau_f`` -> ``τ_f``."""
+    return re.sub(r"[A-Za-z]+", lambda match: _GREEK.get(match.group(), match.group()), text)
+
+
 def key_label(spec: Spec, name: str) -> str:
     """What a dotted key is called: the table's own short description, else the last part of its name.
 
@@ -162,7 +178,7 @@ def symbol(spec: Spec, name: str) -> str:
     key = spec.kind.key(name)
     if key is None:
         return ""
-    return re.sub(r"[A-Za-z]+", lambda match: _GREEK.get(match.group(), match.group()), key.symbol)
+    return greek(key.symbol)
 
 
 def limit_text(spec: Spec, limit: Limit) -> str:
