@@ -63,7 +63,7 @@ class SearchResult:
     after each step (None before there was one).
     network_start : the network's own optimum, where the FEM search began.
     rounded : the best design at the workshop's resolution, re-evaluated; None where no variable has a resolution.
-    reused : how many designs of the history came from an earlier run's journal; seconds are this run's.
+    reused : how many designs of the history stood in the journal already; seconds are this run's.
     stop_reason : a sentence; ending : what sort of end that was, whatever had been found by then.
     """
 

@@ -334,7 +334,7 @@ def _write_report(
         parts=gather.part_rows(final, parts),
         assembly=parts,
         picture=gather.picture(parts) if picture else Picture(None, "No picture was asked for."),
-        checked=(*gather.checked(parts), *findings.evaluation.warnings),
+        checked=gather.checked(parts),
         not_checked=(*gather.NOT_CHECKED, *findings.warnings),
         provenance=gather.provenance(spec, findings.evaluation, command),
         seconds=seconds,
