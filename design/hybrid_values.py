@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from dataclasses import fields
+from typing import Any, TypeVar
 
 from fluxbore.design.errors import SpecError
 from fluxbore.design.hybrid import (
@@ -18,6 +20,8 @@ from fluxbore.design.hybrid import (
 )
 from fluxbore.design.keys import Value, Values
 from fluxbore.design.units import format_quantity
+
+_Part = TypeVar("_Part", BackYoke, Winding, Cylinder, Mover, Shaft, Piston, EndCaps)
 
 ROUNDING = 1e-9
 """m; a position this far beyond the stroke's end is the end."""
@@ -76,64 +80,20 @@ def from_values(values: Values) -> HybridActuator:
     Raises DesignError where it cannot be built.
     """
 
-    def number(key: str) -> float:
-        return float(values["actuator." + key])
+    def part(kind: type[_Part], section: str) -> _Part:
+        """A dataclass from the keys of its fields' names; one that is absent is an optional one."""
+        given: dict[str, Any] = {field.name: values.get(f"actuator.{section}.{field.name}") for field in fields(kind)}
+        return kind(**given)
 
-    def word(key: str) -> str:
-        return str(values["actuator." + key])
-
-    remanence = values.get("actuator.mover.remanence")
-    permeability = values.get("actuator.mover.magnet_permeability")
     actuator = HybridActuator(
-        name=word("name"),
-        back_yoke=BackYoke(
-            number("back_yoke.outer_diameter"),
-            number("back_yoke.inner_diameter"),
-            number("back_yoke.front_overhang"),
-            number("back_yoke.back_overhang"),
-            word("back_yoke.material"),
-        ),
-        winding=Winding(
-            number("winding.outer_diameter"),
-            int(number("winding.sets_per_phase")),
-            number("winding.turns"),
-            number("winding.wire_diameter"),
-            word("winding.material"),
-        ),
-        cylinder=Cylinder(
-            number("cylinder.outer_diameter"),
-            number("cylinder.inner_diameter"),
-            number("cylinder.catalogue_bore"),
-            number("cylinder.length"),
-            word("cylinder.material"),
-        ),
-        mover=Mover(
-            number("mover.pole_pitch"),
-            number("mover.ring_width"),
-            int(number("mover.pole_pairs")),
-            number("mover.outer_diameter"),
-            word("mover.magnet"),
-            None if remanence is None else float(remanence),
-            None if permeability is None else float(permeability),
-            word("mover.ring_material"),
-            number("mover.stroke"),
-        ),
-        shaft=Shaft(number("shaft.outer_diameter"), number("shaft.length"), word("shaft.material")),
-        piston=Piston(
-            number("piston.length"),
-            number("piston.fin_outer_diameter"),
-            number("piston.fin_inner_diameter"),
-            number("piston.fin_length"),
-            number("piston.fin_thickness"),
-            word("piston.material"),
-        ),
-        end_caps=EndCaps(
-            number("end_caps.flange_diameter"),
-            number("end_caps.flange_length"),
-            number("end_caps.port_diameter"),
-            number("end_caps.rod_clearance"),
-            word("end_caps.material"),
-        ),
+        name=str(values["actuator.name"]),
+        back_yoke=part(BackYoke, "back_yoke"),
+        winding=part(Winding, "winding"),
+        cylinder=part(Cylinder, "cylinder"),
+        mover=part(Mover, "mover"),
+        shaft=part(Shaft, "shaft"),
+        piston=part(Piston, "piston"),
+        end_caps=part(EndCaps, "end_caps"),
     )
     actuator.check()
     return actuator

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 from fluxbore.design import bh_curve
 from fluxbore.design.bh_curve import BHCurve
@@ -86,64 +87,20 @@ def schema() -> dict[str, object]:
     return {"type": "object", "required": ["type"], "oneOf": [_schema_of(kind) for kind in _OWN]}
 
 
+_KINDS: dict[str, type[Material]] = {
+    "soft iron": SoftIron,
+    "magnet": PermanentMagnet,
+    "conductor": Conductor,
+    "structural": Structural,
+}
+"""A table's ``type`` and what it becomes; the keys of a table are the fields' names."""
+
+
 def _build(name: str, kind: str, values: Mapping[str, Value | None], curve: BHCurve | None) -> Material:
-    def number(key: str) -> float:
-        value = values[key]
-        assert value is not None, key  # required, or with a default
-        return float(value)
-
-    def optional(key: str) -> float | None:
-        value = values[key]
-        return None if value is None else float(value)
-
-    source, density = str(values["source"]), number("density")
-    young, poisson, limit = optional("young_modulus"), optional("poisson_ratio"), optional("yield_stress")
-    if kind == "soft iron":
-        assert curve is not None
-        return SoftIron(
-            name=name,
-            density=density,
-            source=source,
-            young_modulus=young,
-            poisson_ratio=poisson,
-            yield_stress=limit,
-            curve=curve,
-        )
-    if kind == "magnet":
-        return PermanentMagnet(
-            name=name,
-            density=density,
-            source=source,
-            young_modulus=young,
-            poisson_ratio=poisson,
-            yield_stress=limit,
-            remanence=number("remanence"),
-            remanence_coefficient=number("remanence_coefficient"),
-            intrinsic_coercivity=number("intrinsic_coercivity"),
-            coercivity_coefficient=number("coercivity_coefficient"),
-            recoil_permeability=number("recoil_permeability"),
-            working_temperature=optional("working_temperature"),
-        )
-    if kind == "conductor":
-        return Conductor(
-            name=name,
-            density=density,
-            source=source,
-            young_modulus=young,
-            poisson_ratio=poisson,
-            yield_stress=limit,
-            resistivity=number("resistivity"),
-            temperature_coefficient=number("temperature_coefficient"),
-        )
-    return Structural(
-        name=name,
-        density=density,
-        source=source,
-        young_modulus=young,
-        poisson_ratio=poisson,
-        yield_stress=limit,
-        resistivity=optional("resistivity"),
-    )
+    fields: dict[str, Any] = dict(values)
+    if curve is not None:
+        fields["curve"] = curve
+    return _KINDS[kind](name=name, **fields)
 
 
 def _curve(name: str, raw: Mapping[str, object], prefix: str, source: str, base: Path) -> BHCurve:
