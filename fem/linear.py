@@ -32,33 +32,68 @@ class Factor(Protocol):
 
 
 @dataclass(frozen=True, eq=False)
+class Gather:
+    """How entries of some elements' matrices are summed into the lower triangle.
+
+    sources : (k,) flat index into the element matrices of the entries that count. targets : (k,) index into (nnz,) for
+    each source. signs : (k,) ±1, None where all are +1.
+    """
+
+    nonzeros: int
+    sources: Ints
+    targets: Ints
+    signs: Floats | None
+
+    def assemble(self, matrices: Floats) -> Floats:
+        """(nnz,) values of the global matrix from the element matrices (m, k, k)."""
+        entries = matrices.ravel()[self.sources]
+        if self.signs is not None:
+            entries *= self.signs
+        return np.asarray(np.bincount(self.targets, entries, self.nonzeros))
+
+
+@dataclass(frozen=True, eq=False)
 class Pattern:
     """The lower triangle's nonzero positions, and how entries of element matrices are summed into them.
 
     rows, columns : (nnz,) of the lower triangle, sorted by column, then by row.
-    sources : (k,) flat index into all element matrices (m, 6, 6) of the entries that count.
-    targets : (k,) index into (nnz,) for each source.
-    owners : (k,) the element of each source. block : entries of one element's matrix.
+    gather : of all elements' matrices.
+    freedom : (m, k) unknown of each element's node, -1 where there is none.
+    sign : (m, k) ±1, the node's value being sign times the unknown; None where all are +1.
     """
 
     unknowns: int
     rows: Ints
     columns: Ints
-    sources: Ints
-    targets: Ints
-    owners: Ints
-    block: int
+    gather: Gather
+    freedom: Ints
+    sign: Ints | None
 
     @classmethod
-    def of_elements(cls, freedom: Ints, unknowns: int) -> Pattern:
-        """freedom : (m, k) unknown of each element's node, -1 where there is none."""
+    def of_elements(cls, freedom: Ints, unknowns: int, sign: Ints | None = None) -> Pattern:
+        """freedom : (m, k) unknown of each element's node, -1 where there is none.
+
+        sign : (m, k) ±1, the node's value being sign times the unknown (-1 on one side of an antiperiodic pair). Two
+        nodes of an element may share an unknown: both of their mixed entries are then on the diagonal, and both count.
+        """
         k = freedom.shape[1]
-        row = np.repeat(freedom, k, axis=1).ravel()
-        column = np.tile(freedom, (1, k)).ravel()
-        kept = np.flatnonzero((column >= 0) & (row >= column))
-        code = column[kept] * unknowns + row[kept]
-        unique, targets = np.unique(code, return_inverse=True)
-        return cls(unknowns, unique % unknowns, unique // unknowns, kept, targets.ravel(), kept // (k * k), k * k)
+        number = freedom.astype(_index_type(freedom.size * k))
+        row = np.repeat(number, k, axis=1).ravel()
+        column = np.tile(number, (1, k)).ravel()
+        sources = np.flatnonzero((column >= 0) & (row >= column))
+        row, column = row[sources], column[sources]
+        order = _counting_sort(row, unknowns)
+        order = order[_counting_sort(column[order], unknowns)]
+        row, column = row[order], column[order]
+        first = np.ones(order.size, dtype=bool)
+        first[1:] = (row[1:] != row[:-1]) | (column[1:] != column[:-1])
+        rows, columns = row[first].astype(np.int_), column[first].astype(np.int_)
+        targets = np.empty(order.size, dtype=np.int_)
+        targets[order] = np.cumsum(first) - 1
+        signs = None
+        if sign is not None:
+            signs = (sign[:, :, None] * sign[:, None, :]).ravel()[sources].astype(float)
+        return cls(unknowns, rows, columns, Gather(rows.size, sources, targets, signs), freedom, sign)
 
     @property
     def nonzeros(self) -> int:
@@ -66,16 +101,24 @@ class Pattern:
 
     def assemble(self, matrices: Floats) -> Floats:
         """(nnz,) values of the global matrix from all element matrices (m, k, k)."""
-        return np.asarray(np.bincount(self.targets, matrices.ravel()[self.sources], self.nonzeros))
+        return self.gather.assemble(matrices)
+
+    def subset_assembler(self, elements: Ints) -> Gather:
+        """Sums the matrices (len(elements), k, k) of some elements only."""
+        count, k = self.freedom.shape
+        block = k * k
+        place = np.full(count, -1)
+        place[elements] = np.arange(elements.size)
+        owner = place[self.gather.sources // block]
+        chosen = np.flatnonzero(owner >= 0)
+        sources = owner[chosen] * block + self.gather.sources[chosen] % block
+        signs = None if self.gather.signs is None else self.gather.signs[chosen]
+        return Gather(self.nonzeros, sources, self.gather.targets[chosen], signs)
 
     def subset(self, elements: Ints) -> tuple[Ints, Ints]:
-        """Sources and targets of some elements only, for matrices (len(elements), k, k) of just these."""
-        size = int(self.owners.max()) + 1 if self.owners.size else 0
-        place = np.full(max(size, int(elements.max(initial=-1)) + 1), -1)
-        place[elements] = np.arange(elements.size)
-        chosen = np.flatnonzero(place[self.owners] >= 0)
-        block = self.sources[chosen] % self.block
-        return place[self.owners[chosen]] * self.block + block, self.targets[chosen]
+        """Sources and targets of some elements only, for matrices (len(elements), k, k) of just these; no signs."""
+        gather = self.subset_assembler(elements)
+        return gather.sources, gather.targets
 
     @cached_property
     def bandwidth(self) -> int:
@@ -83,25 +126,55 @@ class Pattern:
 
     @cached_property
     def symmetric(self) -> tuple[Ints, Ints, Ints]:
-        """(indices, indptr, order): the full matrix in compressed columns; order picks its values from (nnz,)."""
-        lower = np.arange(self.nonzeros)
-        off = self.rows != self.columns
-        row = np.concatenate((self.rows, self.columns[off]))
-        column = np.concatenate((self.columns, self.rows[off]))
-        value = np.concatenate((lower, lower[off]))
-        order = np.lexsort((row, column))
-        start = np.concatenate(([0], np.cumsum(np.bincount(column, minlength=self.unknowns))))
-        return row[order], start, value[order]
+        """(indices, indptr, order): the full matrix in compressed columns; order picks its values from (nnz,).
 
-    def multiply(self, values: Floats, vector: Floats) -> Floats:
-        """A x for the symmetric matrix of these values."""
-        return np.asarray(self._full(values) @ vector)
+        The pattern is symmetric, so these are its compressed rows as well.
+        """
+        index = _index_type(2 * self.nonzeros)
+        upper = np.flatnonzero(self.rows != self.columns)
+        # By row, and within a row by column: the columns of the upper triangle.
+        upper = upper[_counting_sort(self.rows[upper].astype(index), self.unknowns)]
+        above = np.bincount(self.rows[upper], minlength=self.unknowns)
+        below = np.bincount(self.columns, minlength=self.unknowns)
+        start = np.concatenate(([0], np.cumsum(above + below)))
+        order = np.empty(start[-1], dtype=index)
+        indices = np.empty(start[-1], dtype=index)
+        # A column's entries: those above the diagonal first. The k-th of all the entries above comes after the entries
+        # below in the columns before its own, and the other way round.
+        at = np.arange(upper.size) + (start[:-1] - np.cumsum(above) + above)[self.rows[upper]]
+        order[at], indices[at] = upper, self.columns[upper]
+        at = np.arange(self.nonzeros) + (start[:-1] + above - np.cumsum(below) + below)[self.columns]
+        order[at], indices[at] = np.arange(self.nonzeros), self.rows
+        return indices, start.astype(index), order
 
-    def _full(self, values: Floats) -> Any:
+    def matrix(self, values: Floats) -> Any:
+        """The full symmetric matrix of these values (nnz,) in scipy's compressed columns."""
         from scipy.sparse import csc_matrix
 
         indices, start, order = self.symmetric
         return csc_matrix((values[order], indices, start), shape=(self.unknowns, self.unknowns))
+
+    def multiply(self, values: Floats, vector: Floats) -> Floats:
+        """A x for the symmetric matrix of these values."""
+        return np.asarray(self.matrix(values) @ vector)
+
+
+def _index_type(largest: int) -> type[np.signedinteger[Any]]:
+    """Four bytes for an index where they do: half the memory at a million unknowns."""
+    return np.int32 if largest < 2**31 else np.int64
+
+
+def _counting_sort(keys: Ints, limit: int) -> Ints:
+    """The permutation that sorts keys in [0, limit), equal ones in their order, in linear time.
+
+    It is what changing from compressed rows to compressed columns does.
+    """
+    from scipy.sparse import csr_array
+
+    index = _index_type(keys.size)
+    ones = np.ones(keys.size, dtype=np.int8)
+    matrix = csr_array((ones, keys, np.arange(keys.size + 1, dtype=index)), shape=(keys.size, limit))
+    return np.asarray(matrix.tocsc().indices)
 
 
 def factorise(pattern: Pattern, values: Floats, method: Method = "banded") -> Factor:
@@ -178,7 +251,7 @@ class SuperLU:
 
         try:
             self._factor = splu(
-                pattern._full(values),
+                pattern.matrix(values),
                 permc_spec="MMD_AT_PLUS_A",
                 diag_pivot_thresh=0.0,
                 options={"SymmetricMode": True},

@@ -46,6 +46,59 @@ def test_pattern_of_some_elements(small: tuple[Pattern, np.ndarray, np.ndarray])
     assert total == pytest.approx(pattern.assemble(matrices))
 
 
+@pytest.fixture(scope="module")
+def paired() -> tuple[Pattern, np.ndarray, np.ndarray]:
+    """The same with signs, and with unknowns that two nodes of one element share, some with opposite signs."""
+    rng = np.random.default_rng(11)
+    unknowns = 30
+    freedom = np.array([rng.choice(np.arange(k, k + 10), 6) for k in range(21)])
+    freedom[:, 0] = np.arange(21)  # so that every unknown occurs
+    freedom[-1, :] = np.arange(24, 30)
+    freedom[:9, 1] = np.arange(21, 30)
+    freedom[rng.uniform(size=freedom.shape) < 0.1] = -1
+    sign = rng.choice([-1, 1], freedom.shape)
+    assert any(np.unique(row[row >= 0]).size < np.count_nonzero(row >= 0) for row in freedom)
+    root = rng.normal(size=(freedom.shape[0], 6, 6))
+    matrices = root @ root.transpose(0, 2, 1)
+    full = np.zeros((unknowns, unknowns))
+    for row, signs, matrix in zip(freedom, sign, matrices, strict=True):
+        spread = np.zeros((6, unknowns))  # node values from unknowns
+        for node in range(6):
+            if row[node] >= 0:
+                spread[node, row[node]] = signs[node]
+        full += spread.T @ matrix @ spread
+    return Pattern.of_elements(freedom, unknowns, sign), matrices, full
+
+
+def test_pattern_with_signs_and_shared_unknowns(paired: tuple[Pattern, np.ndarray, np.ndarray]) -> None:
+    """Catches a lost sign, and a mixed entry of two nodes on one unknown that counts once: against TᵀKT."""
+    pattern, matrices, full = paired
+    values = pattern.assemble(matrices)
+    assert pattern.matrix(values).toarray() == pytest.approx(full)
+    dense = np.zeros_like(full)
+    dense[pattern.rows, pattern.columns] = values
+    assert dense == pytest.approx(np.tril(full))
+
+
+def test_subset_with_signs(paired: tuple[Pattern, np.ndarray, np.ndarray]) -> None:
+    """Catches signs that stay behind when elements are picked, in any order."""
+    pattern, matrices, _ = paired
+    total = np.zeros(pattern.nonzeros)
+    for chosen in (np.array([7, 3, 11]), np.setdiff1d(np.arange(21), [3, 7, 11]), np.zeros(0, dtype=int)):
+        total += pattern.subset_assembler(chosen).assemble(matrices[chosen])
+    assert total == pytest.approx(pattern.assemble(matrices))
+
+
+def test_the_full_matrix_is_in_order(small: tuple[Pattern, np.ndarray, np.ndarray]) -> None:
+    """Catches compressed columns whose rows are not sorted, which scipy would sort again at every step."""
+    pattern, matrices, full = small
+    matrix = pattern.matrix(pattern.assemble(matrices))
+    assert matrix.has_canonical_format
+    assert matrix.toarray() == pytest.approx(full)
+    order = np.lexsort((pattern.rows, pattern.columns))
+    assert np.array_equal(order, np.arange(pattern.nonzeros))
+
+
 def test_multiply(small: tuple[Pattern, np.ndarray, np.ndarray]) -> None:
     """Catches a symmetric half that is lost, or a diagonal that counts twice."""
     pattern, matrices, full = small
