@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fluxbore.fem.mesh import Floats, Ints, Mesh
+from fluxbore.fem.mesh import Chart, Floats, Ints, Mesh, in_space
 
 # Radon's seven-point rule, exact to degree five on a triangle (Radon 1948; Strang and Fix 1973, Table 4.1).
 _A, _B = (6 - np.sqrt(15)) / 21, (6 + np.sqrt(15)) / 21
@@ -102,8 +102,29 @@ def flux_density_squared(curl: Floats, psi: Floats) -> tuple[Floats, Floats]:
 
 
 def stiffness(curl: Floats, factor: Floats) -> Floats:
-    """Element matrices (m, 6, 6) of  ∫ ν B(ψ)·B(v);  factor : (m, q) ν times quadrature weight."""
+    """Element matrices (m, 6, 6) of  ∫ ν B(ψ)·B(v).
+
+    factor : ν times quadrature weight, (m, q), or (m, q, 2) for each row of the kernel's frame.
+    """
     m, q, two, six = curl.shape
     flat = curl.reshape(m, q * two, six)
-    scaled = flat * np.repeat(factor, two, axis=1)[..., None]
-    return np.asarray(flat.transpose(0, 2, 1) @ scaled)
+    rows = np.repeat(factor, two, axis=1) if factor.ndim == 2 else factor.reshape(m, q * two)
+    return np.asarray(flat.transpose(0, 2, 1) @ (flat * rows[..., None]))
+
+
+def to_frame(chart: Chart, vectors: Floats) -> Floats:
+    """(..., 2) vectors along (r, z) or (x, y) in the kernel's frame; both rows change sign together, so H·B holds."""
+    first, second = vectors[..., 0], vectors[..., 1]
+    return np.stack((second, -first) if chart == "axisymmetric" else (-second, first), axis=-1)
+
+
+def from_frame(chart: Chart, vectors: Floats) -> Floats:
+    """(..., 2) vectors of the kernel's frame along (r, z) or (x, y)."""
+    first, second = vectors[..., 0], vectors[..., 1]
+    return np.stack((-second, first) if chart == "axisymmetric" else (second, -first), axis=-1)
+
+
+def positions(mesh: Mesh, elements: Ints | None = None, barycentric: Floats = QUADRATURE_POINTS) -> Floats:
+    """(m, q, 2) the points of each element in space, m."""
+    nodes = mesh.nodes[mesh.elements if elements is None else mesh.elements[elements]]
+    return in_space(mesh.chart, np.einsum("qn,mnk->mqk", shape(barycentric), nodes, optimize=True))

@@ -47,6 +47,6 @@ def incremental_thrust(solution: Solution, annulus: tuple[float, float]) -> Floa
 
     One back-substitution serves all circuits: with K y = ∂F/∂ψ, each circuit's constant is y · (its load per ampere).
     """
-    inner = solution.system.inner
-    y = solution.tangent.solve(axial_force_gradient(solution, annulus)[inner])
-    return np.array([y @ circuit.density[inner] for circuit in solution.problem.circuits])
+    gather = solution.system.topology.gather
+    y = solution.tangent.solve(gather(axial_force_gradient(solution, annulus)))
+    return np.array([y @ gather(circuit.density) for circuit in solution.problem.circuits])

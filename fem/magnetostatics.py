@@ -7,11 +7,19 @@ from functools import cached_property
 
 import numpy as np
 
-from fluxbore.fem.element import Kernel, flux_density_squared, kernel, stiffness
+from fluxbore.fem.element import (
+    QUADRATURE_WEIGHTS,
+    Kernel,
+    flux_density_squared,
+    kernel,
+    positions,
+    stiffness,
+    to_frame,
+)
 from fluxbore.fem.linear import Corrected, Factor, Method, factorise
-from fluxbore.fem.mesh import Floats, Ints
+from fluxbore.fem.mesh import Floats, Ints, Mesh
 from fluxbore.fem.newton import Convergence, newton
-from fluxbore.fem.problem import Problem
+from fluxbore.fem.problem import MagneticMaterial, Problem, Stack
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,22 +40,48 @@ class System:
     def __init__(self, problem: Problem) -> None:
         self.problem = problem
         mesh = problem.mesh
-        self.freedom = mesh.topology.freedom
-        self.inner = mesh.topology.nodes_of_freedom
-        self.pattern = mesh.topology.pattern
+        self.topology = mesh.topology
+        self.inner = self.topology.nodes_of_freedom
+        self.pattern = self.topology.pattern
         self.kernel: Kernel = kernel(mesh)
-        self._assemble_linear()
-        self._gather_iron()
-        self.load = self._magnet_load()
-        for circuit in problem.circuits:
+        load = self._magnet_load()
+        for circuit in (*problem.circuits, *problem.sources):
             if circuit.current:
-                self.load = self.load + circuit.current * circuit.density[self.inner]
+                load += circuit.current * circuit.density
+        if problem.edges is not None:
+            load += problem.edges.load
+        load -= self._assemble_linear()
+        self.load = self.topology.gather(load)
+        self._gather_iron()
 
-    def _assemble_linear(self) -> None:
-        region = self.problem.mesh.region
-        reluctivity = np.array([0.0 if m.curve else m.reluctivity for m in self.problem.materials])[region]
-        matrices = stiffness(self.kernel.curl, self.kernel.weight * reluctivity[:, None])
+    def _assemble_linear(self) -> Floats:
+        """The linear part of the matrix; returns (n,) what the prescribed ψ pulls on through it."""
+        problem = self.problem
+        mesh = problem.mesh
+        matrices = stiffness(self.kernel.curl, self._linear_factor())
+        if problem.edges is not None:
+            np.add.at(matrices, problem.edges.elements, problem.edges.matrices)
         self.linear = self.pattern.assemble(matrices)
+        if problem.prescribed is None or not problem.prescribed.any():
+            return np.zeros(mesh.nodes.shape[0])
+        fixed = np.where(self.topology.freedom < 0, problem.prescribed, 0.0)
+        pull = np.einsum("mnk,mk->mn", matrices, fixed[mesh.elements], optimize=True)
+        return np.asarray(np.bincount(mesh.elements.ravel(), pull.ravel(), mesh.nodes.shape[0]))
+
+    def _linear_factor(self) -> Floats:
+        """ν of the linear part times quadrature weight: (m, q), or (m, q, 2) where a material has a direction."""
+        mesh, materials = self.problem.mesh, self.problem.materials
+        first, second = np.array([material.components for material in materials]).reshape(-1, 2).T
+        # Row 0 of the kernel is B_z or −B_y, row 1 is −B_r or B_x.
+        factor: Floats = self.kernel.weight * second[mesh.region][:, None]
+        if np.any(first != second):
+            factor = np.stack((factor, self.kernel.weight * first[mesh.region][:, None]), axis=-1)
+        for index, material in enumerate(materials):
+            if material.grade is not None:
+                elements = np.flatnonzero(mesh.region == index)
+                grade = material.grade.factor(positions(mesh, elements))
+                factor[elements] *= grade if factor.ndim == 2 else grade[..., None]
+        return factor
 
     def _gather_iron(self) -> None:
         """The iron's elements, grouped by curve, and where their matrices land."""
@@ -66,33 +100,33 @@ class System:
         self.iron_nodes = mesh.elements[self.iron_elements]
         self.iron_curl = self.kernel.curl[self.iron_elements]
         self.iron_weight = self.kernel.weight[self.iron_elements]
+        for index, part in self.iron:
+            stack = self.problem.materials[index].stack
+            if stack is not None:
+                self.iron_curl[part] *= in_sheets(stack)[:, None]
+                self.iron_weight[part] *= stack.fill
         self.iron_sources, self.iron_targets = self.pattern.subset(self.iron_elements)
 
     def _magnet_load(self) -> Floats:
-        """∫ ν B_rem · B(v), with B_rem in the kernel's frame."""
+        """(n,)  ∫ H_c · B(v), with H_c in the kernel's frame."""
         mesh = self.problem.mesh
-        frame = np.zeros((len(self.problem.materials), 2))
+        load = np.zeros(mesh.nodes.shape[0])
         for index, material in enumerate(self.problem.materials):
-            first, second = material.remanence
-            # Row 0 of the kernel is B_z (or −B_y), row 1 is −B_r (or B_x).
-            frame[index] = (second, -first) if mesh.chart == "axisymmetric" else (-second, first)
-            frame[index] *= material.reluctivity
-        magnets = np.flatnonzero(np.any(frame[mesh.region] != 0, axis=1))
-        pull = np.einsum(
-            "mqkn,mq,mk->mn",
-            self.kernel.curl[magnets],
-            self.kernel.weight[magnets],
-            frame[mesh.region[magnets]],
-            optimize=True,
-        )
-        load = np.bincount(mesh.elements[magnets].ravel(), pull.ravel(), mesh.nodes.shape[0])
-        return np.asarray(load[self.inner])
+            if material.coercivity == (0.0, 0.0):
+                continue
+            elements = np.flatnonzero(mesh.region == index)
+            pull = np.einsum(
+                "mqkn,mqk->mn",
+                self.kernel.curl[elements],
+                self.kernel.weight[elements][..., None] * coercive_field(mesh, material, elements),
+                optimize=True,
+            )
+            load += np.bincount(mesh.elements[elements].ravel(), pull.ravel(), load.size)
+        return load
 
     def spread(self, unknowns: Floats) -> Floats:
-        """(n,) nodal ψ from the unknowns; zero where it is prescribed."""
-        psi = np.zeros(self.freedom.size)
-        psi[self.inner] = unknowns
-        return psi
+        """(n,) nodal ψ from the unknowns, with the prescribed values."""
+        return self.topology.spread(unknowns, self.problem.prescribed)
 
     def _iron_state(self, unknowns: Floats) -> tuple[Floats, Floats, Floats]:
         """B (m, q, 2), ν and dν/d|B|² (m, q) in the iron's elements."""
@@ -111,7 +145,8 @@ class System:
         if self.iron_elements.size:
             field, nu, _ = self._iron_state(unknowns)
             pull = np.einsum("mqkn,mqk->mn", self.iron_curl, field * (nu * self.iron_weight)[..., None], optimize=True)
-            forces += np.bincount(self.iron_nodes.ravel(), pull.ravel(), self.freedom.size)[self.inner]
+            nodal = np.bincount(self.iron_nodes.ravel(), pull.ravel(), self.topology.freedom.size)
+            forces += self.topology.gather(np.asarray(nodal, dtype=float))
         return forces
 
     def tangent_values(self, unknowns: Floats) -> Floats:
@@ -126,6 +161,21 @@ class System:
             matrices = rows.transpose(0, 2, 1) @ (rows * factor[..., None])
             values += np.bincount(self.iron_targets, matrices.ravel()[self.iron_sources], values.size)
         return values
+
+
+def in_sheets(stack: Stack) -> Floats:
+    """(2,) flux density inside the sheets per flux density of the stack, by row of the kernel's frame."""
+    rows = np.ones(2)
+    rows[1 - stack.along] = 1 / stack.fill
+    return rows
+
+
+def coercive_field(mesh: Mesh, material: MagneticMaterial, elements: Ints) -> Floats:
+    """(m, q, 2) H_c (A/m) of a magnet's elements at the quadrature points, in the kernel's frame."""
+    if callable(material.coercivity):
+        return to_frame(mesh.chart, material.coercivity(positions(mesh, elements)))
+    constant = to_frame(mesh.chart, np.array(material.coercivity))
+    return np.broadcast_to(constant, (elements.size, QUADRATURE_WEIGHTS.size, 2))
 
 
 @dataclass(frozen=True, eq=False)

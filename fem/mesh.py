@@ -26,25 +26,57 @@ class Topology:
     """Which nodes form which element, and which of them are unknown. Designs and positions share it.
 
     elements : (m, 6) node numbers: three corners, then the middles of edges 12, 23, 31.
-    freedom : (n,) number of the unknown at each node, -1 where ψ is prescribed to be zero.
+    freedom : (n,) number of the unknown at each node, −1 where ψ is prescribed. Nodes that a periodic boundary ties
+        together share an unknown.
+    sign : (n,) ±1, −1 where an antiperiodic boundary turns the unknown round; None for +1 everywhere.
     """
 
     elements: Ints
     freedom: Ints
+    sign: Ints | None = None
 
-    @property
+    @cached_property
     def unknowns(self) -> int:
-        return int(self.freedom.max()) + 1
+        return int(self.freedom.max(initial=-1)) + 1
 
     @cached_property
     def pattern(self) -> Pattern:
         """Where element matrices land in the global one."""
-        return Pattern.of_elements(self.freedom[self.elements], self.unknowns)
+        if self.sign is None:
+            return Pattern.of_elements(self.freedom[self.elements], self.unknowns)
+        return Pattern.of_elements(self.freedom[self.elements], self.unknowns, self.sign[self.elements])
 
     @cached_property
     def nodes_of_freedom(self) -> Ints:
-        """(unknowns,) the node of each unknown."""
-        return np.flatnonzero(self.freedom >= 0)
+        """(unknowns,) a node of each unknown, of positive sign where it has one."""
+        free = np.flatnonzero(self.freedom >= 0)
+        nodes = np.empty(self.unknowns, dtype=free.dtype)
+        nodes[self.freedom[free]] = free
+        if self.sign is not None:
+            positive = free[self.sign[free] > 0]
+            nodes[self.freedom[positive]] = positive
+        return nodes
+
+    @cached_property
+    def _tied(self) -> bool:
+        return self.unknowns != int(np.count_nonzero(self.freedom >= 0))
+
+    def spread(self, unknowns: Floats, prescribed: Floats | None = None) -> Floats:
+        """(n,) nodal values from the unknowns; the prescribed ones, or zero, at the other nodes."""
+        values = np.zeros(self.freedom.size) if prescribed is None else np.where(self.freedom < 0, prescribed, 0.0)
+        free = np.flatnonzero(self.freedom >= 0)
+        values[free] = (
+            unknowns[self.freedom[free]] if self.sign is None else (self.sign[free] * unknowns[self.freedom[free]])
+        )
+        return values
+
+    def gather(self, nodal: Floats) -> Floats:
+        """(unknowns,) sums over the nodes of each unknown: what a nodal load does to the unknowns."""
+        if self.sign is None and not self._tied:
+            return np.asarray(nodal[self.nodes_of_freedom])
+        free = np.flatnonzero(self.freedom >= 0)
+        share = nodal[free] if self.sign is None else self.sign[free] * nodal[free]
+        return np.asarray(np.bincount(self.freedom[free], share, self.unknowns))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -67,6 +99,18 @@ class Mesh:
     @property
     def positions(self) -> Floats:
         """(n, 2) the nodes in space, (r, z) or (x, y) in metres."""
-        if self.chart == "planar":
-            return self.nodes
-        return np.column_stack((np.sqrt(2.0 * np.maximum(self.nodes[:, 0], 0.0)), self.nodes[:, 1]))
+        return in_space(self.chart, self.nodes)
+
+
+def in_space(chart: Chart, points: Floats) -> Floats:
+    """(..., 2) points of a chart in space: (r, z) or (x, y) in metres."""
+    if chart == "planar":
+        return points
+    return np.stack((np.sqrt(2.0 * np.maximum(points[..., 0], 0.0)), points[..., 1]), axis=-1)
+
+
+def in_chart(chart: Chart, points: Floats) -> Floats:
+    """(..., 2) points of space, (r, z) or (x, y) in metres, in the chart."""
+    if chart == "planar":
+        return points
+    return np.stack((points[..., 0] ** 2 / 2, points[..., 1]), axis=-1)

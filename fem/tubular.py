@@ -75,7 +75,7 @@ def magnetic_material(region: Region) -> MagneticMaterial:
     if region.material is None:
         return MagneticMaterial()
     if isinstance(region.material, PermanentMagnet):
-        return MagneticMaterial(VACUUM_RELUCTIVITY / region.recoil_permeability, (0.0, region.remanence))
+        return MagneticMaterial.magnet((0.0, region.remanence), VACUUM_RELUCTIVITY / region.recoil_permeability)
     if region.material.curve is not None:
         return MagneticMaterial(curve=reluctivity_curve(region.material.curve))
     return MagneticMaterial()
@@ -173,7 +173,7 @@ def demagnetised_fraction(tubular: TubularSolution, intrinsic_coercivity: float)
             continue
         elements = np.flatnonzero(mesh.region == index)
         b_along = solution.flux_density(elements)[..., 0] * np.sign(remanence)
-        reverse = -material.reluctivity * (b_along - abs(remanence))
+        reverse = -material.components[1] * (b_along - abs(remanence))
         weight = solution.system.kernel.weight[elements]
         volume += float(weight.sum())
         beyond += float(weight[reverse > intrinsic_coercivity].sum())

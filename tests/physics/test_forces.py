@@ -159,7 +159,7 @@ def test_no_magnets_no_current_no_force(motor: Motor) -> None:
     """Catches a force from nothing, and a division by the load."""
     (item,) = motor([0.0262])
     problem = item.solution.problem
-    bare = Problem(problem.mesh, tuple(replace(m, remanence=(0.0, 0.0)) for m in problem.materials), problem.circuits)
+    bare = Problem(problem.mesh, tuple(replace(m, coercivity=(0.0, 0.0)) for m in problem.materials), problem.circuits)
     solution = solve(bare)
     assert solution.convergence.converged
     assert axial_force(solution, item.section.force_annulus) == 0.0

@@ -42,7 +42,7 @@ def axis_error(solution: Solution, radius: float, length: float) -> float:
 def test_field_of_a_magnet_on_its_axis(free_space: FreeSpace) -> None:
     """Catches a wrong magnet load, a lost 2π, and an axis where the field loses an order: rate 2, 0.1 % at the end."""
     radius, length = 0.01, 0.02
-    magnet = (MagneticMaterial(remanence=(0.0, 1.3)), (0.0, radius), (-length / 2, length / 2))
+    magnet = (MagneticMaterial.magnet((0.0, 1.3)), (0.0, radius), (-length / 2, length / 2))
     errors = [axis_error(free_space([magnet], refinement=k).solution, radius, length) for k in (1, 2, 3)]
     assert errors[-1] < 1e-3 * 1.3
     assert np.log(errors[0] / errors[1]) / np.log(2) > 1.8
@@ -52,7 +52,7 @@ def test_field_of_a_magnet_on_its_axis(free_space: FreeSpace) -> None:
 def test_nagaoka_coefficient_of_a_magnet_as_long_as_wide(free_space: FreeSpace) -> None:
     """Catches a wrong flux through a thin solenoid, which a magnet of μ_r = 1 is: K(1) = 0.688423 (Nagaoka 1909)."""
     radius, length, remanence = 0.01, 0.02, 1.0
-    magnet = (MagneticMaterial(remanence=(0.0, remanence)), (0.0, radius), (-length / 2, length / 2))
+    magnet = (MagneticMaterial.magnet((0.0, remanence)), (0.0, radius), (-length / 2, length / 2))
     solution = free_space([magnet], far=0.6, refinement=3).solution
     volume = np.pi * radius**2 * length
     assert work(solution) / (remanence**2 / MU_0 * volume) == pytest.approx(0.688423, rel=1e-4)
@@ -77,7 +77,7 @@ def test_attraction_of_two_magnets_by_virtual_work(
 
     A magnet of 20 mm radius and 40 mm height pulls at one of the same and of another size, centres 50 mm apart.
     """
-    magnet, step = MagneticMaterial(remanence=(0.0, 1.3)), 2e-4
+    magnet, step = MagneticMaterial.magnet((0.0, 1.3)), 2e-4
     lower = (-0.02, 0.02)
     assert sheets_pull(loops, 0.02, lower, radius, (0.05 - height / 2, 0.05 + height / 2)) == pytest.approx(
         force, rel=1e-5
@@ -98,7 +98,7 @@ def test_force_between_a_magnet_and_a_ring_by_the_stress_tensor(free_space: Free
     """Catches a wrong sign or factor of the stress tensor: against Maxwell's loops over both current sheets."""
     inner, outer, bore = 0.005, 0.015, 0.010
     z_magnet, z_ring, shell = (-0.005, 0.005), (0.001, 0.011), (0.006, 0.009)
-    magnet = MagneticMaterial(remanence=(0.0, 1.3))
+    magnet = MagneticMaterial.magnet((0.0, 1.3))
     parts = [(magnet, (0.0, inner), z_magnet), (magnet, (bore, outer), z_ring)]
     solution = free_space(parts, far=0.2, cells=5, refinement=2, more_r=shell).solution
     exact = sheets_pull(loops, inner, z_magnet, outer, z_ring) - sheets_pull(loops, inner, z_magnet, bore, z_ring)
@@ -110,7 +110,7 @@ def test_action_equals_reaction(free_space: FreeSpace) -> None:
 
     What is inside a shell around both feels no force, since nothing is outside.
     """
-    magnet, iron = MagneticMaterial(remanence=(0.0, 1.3)), MagneticMaterial(1 / (500 * MU_0))
+    magnet, iron = MagneticMaterial.magnet((0.0, 1.3)), MagneticMaterial(1 / (500 * MU_0))
     parts = [(magnet, (0.0, 0.005), (-0.005, 0.005)), (iron, (0.010, 0.015), (0.001, 0.011))]
     near, middle, both = (0.006, 0.007), (0.008, 0.009), (0.02, 0.03)
     solution = free_space(parts, far=0.2, cells=5, refinement=3, more_r=(*near, *middle, *both)).solution
@@ -122,7 +122,7 @@ def test_action_equals_reaction(free_space: FreeSpace) -> None:
 
 def test_no_force_in_a_symmetric_arrangement(free_space: FreeSpace) -> None:
     """Catches a mesh whose diagonals push: a magnet in the middle of a ring feels a thousandth of its pull."""
-    magnet = MagneticMaterial(remanence=(0.0, 1.3))
+    magnet = MagneticMaterial.magnet((0.0, 1.3))
 
     def force(shift: float) -> float:
         parts = [(magnet, (0.0, 0.005), (-0.005, 0.005)), (magnet, (0.010, 0.015), (shift - 0.004, shift + 0.004))]
