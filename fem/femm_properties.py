@@ -25,7 +25,7 @@ UNSUPPORTED_BOUNDARIES = {
 """By BdryType; they are refused where a line uses them."""
 
 _WIRES: dict[int, Lamination] = dict.fromkeys(range(3, 9), "wire")
-LAMINATIONS: dict[int, Lamination] = {0: "in plane", 1: "parallel to x", 2: "parallel to y"} | _WIRES
+LAMINATIONS: dict[int, Lamination] = {0: "in plane", 1: "parallel to x", 2: "parallel to y", **_WIRES}
 """By LamType. The wires are magnet wire, plain and Litz strands, square wire and two of copper-clad aluminium: FEMM
 gives them the permeability of air."""
 
