@@ -58,7 +58,8 @@ class System:
         """The linear part of the matrix; returns (n,) what the prescribed ψ pulls on through it."""
         problem = self.problem
         mesh = problem.mesh
-        matrices = stiffness(self.kernel.curl, self._linear_factor())
+        self.linear_factor = self._linear_factor()
+        matrices = stiffness(self.kernel.curl, self.linear_factor)
         if problem.edges is not None:
             np.add.at(matrices, problem.edges.elements, problem.edges.matrices)
         self.linear = self.pattern.assemble(matrices)

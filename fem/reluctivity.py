@@ -65,6 +65,19 @@ class ReluctivityCurve:
         c0, c1, c2, c3 = (self.coefficients[i][k] for i in range(4))
         return np.asarray(self.energy[k] + x * (c0 + x * (c1 / 2 + x * (c2 / 3 + x * c3 / 4))))
 
+    def coenergy_at(self, h: Floats) -> Floats:
+        """∫B dH from zero (J/m³) at H >= 0 (A/m)."""
+        knots = STEP * np.arange(self.coefficients.shape[1])
+        at_knots = self.coefficients[0]
+        b = np.interp(h, at_knots, knots)
+        beyond = h > at_knots[-1]
+        b = np.where(beyond, knots[-1] + (h - at_knots[-1]) / VACUUM_RELUCTIVITY, b)
+        for _ in range(4):  # Newton's steps from the chord, on a piece that is all but straight
+            k, x = self._locate(b)
+            _, c1, c2, c3 = (self.coefficients[i][k] for i in range(4))
+            b = b - (self.field_strength(b) - h) / (c1 + x * (2 * c2 + 3 * c3 * x))
+        return np.asarray(b * h - self.energy_density(b))
+
     def _locate(self, b: Floats) -> tuple[np.ndarray, Floats]:
         # fmin sends NaN to the last interval, where it stays NaN: a field that does not exist is Newton's to report.
         k = np.fmin(b / STEP, self.coefficients.shape[1] - 1).astype(int)

@@ -1,0 +1,87 @@
+"""Regions that carry current: their load, their linkage, and their current density where it is asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from fluxbore.fem.element import QUADRATURE_POINTS, QUADRATURE_WEIGHTS, shape, shape_derivatives
+from fluxbore.fem.mesh import Floats, Ints, Mesh
+from fluxbore.fem.problem import Circuit, Conductor, Problem
+
+_GAUSS, _GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(6)
+_UNIT, _UNIT_WEIGHTS = (_GAUSS + 1) / 2, _GAUSS_WEIGHTS / 2
+
+
+def region_load(mesh: Mesh, region: int, by_radius: bool = False) -> Floats:
+    """(n,) ∫ φ_i dr dz (m²), or ∫ φ_i/r dr dz (m) by radius, over one region; dx dy in a planar problem.
+
+    Summed, the region's area or the integral of 1/r over it, since the shape functions add up to one.
+    """
+    elements = np.flatnonzero(mesh.region == region)
+    if mesh.chart == "planar":
+        return _integral(mesh, elements, QUADRATURE_POINTS, QUADRATURE_WEIGHTS, 0)
+    power = 2 if by_radius else 1
+    on_axis = mesh.nodes[mesh.elements[elements, :3], 0] <= 0
+    corners = on_axis @ np.array([1, 2, 4])
+    load = _integral(mesh, elements[corners == 0], QUADRATURE_POINTS, QUADRATURE_WEIGHTS, power)
+    for code in np.unique(corners[corners > 0]):
+        points, weights = _collapsed(int(code))
+        load += _integral(mesh, elements[corners == code], points, weights, power)
+    return load
+
+
+def circuit(mesh: Mesh, name: str, conductors: Sequence[Conductor], current: float) -> Circuit:
+    """A circuit of regions in series, or of whatever share of its ampere each conductor's density says."""
+    density = np.zeros(mesh.nodes.shape[0])
+    for conductor in conductors:
+        density += conductor.density * region_load(mesh, conductor.region, conductor.by_radius)
+    return Circuit(name, density, current, tuple(conductors))
+
+
+def current_density(problem: Problem) -> tuple[Floats, Floats]:
+    """(regions,) J (A/m²), and (regions,) what is to be divided by the radius and added to it (A/m)."""
+    uniform, by_radius = np.zeros(len(problem.materials)), np.zeros(len(problem.materials))
+    for item in (*problem.circuits, *problem.sources):
+        for conductor in item.conductors:
+            target = by_radius if conductor.by_radius else uniform
+            target[conductor.region] += item.current * conductor.density
+    return uniform, by_radius
+
+
+def _integral(mesh: Mesh, elements: Ints, points: Floats, weights: Floats, power: int) -> Floats:
+    """(n,) ∫ φ_i r^−power over elements in the chart's measure."""
+    nodes = mesh.nodes[mesh.elements[elements]]
+    values = shape(points)
+    jacobian = np.einsum("mnk,qnd->mqkd", nodes, shape_derivatives(points), optimize=True)
+    area = np.abs(jacobian[..., 0, 0] * jacobian[..., 1, 1] - jacobian[..., 0, 1] * jacobian[..., 1, 0]) / 2 * weights
+    if power:
+        s = np.maximum(np.einsum("qn,mn->mq", values, nodes[..., 0], optimize=True), np.finfo(float).tiny)
+        area /= (2 * s) ** (power / 2)
+    share = np.einsum("mq,qn->mn", area, values, optimize=True)
+    return np.asarray(np.bincount(mesh.elements[elements].ravel(), share.ravel(), mesh.nodes.shape[0]), dtype=float)
+
+
+def _collapsed(code: int) -> tuple[Floats, Floats]:
+    """A rule for triangles that touch the axis with the corners of a bit code: barycentric (q, 3) and weights (q,).
+
+    There the integrand goes as 1/√s. Squares collapsed to triangles (Duffy 1982) with the distance from the axis taken
+    as a square, s ~ t², make it smooth.
+    """
+    touching = [k for k in range(3) if code >> k & 1]
+    t, u = (grid.ravel() for grid in np.meshgrid(_UNIT, _UNIT, indexing="ij"))
+    weight = np.outer(_UNIT_WEIGHTS, _UNIT_WEIGHTS).ravel()
+    distance = t**2
+    points = np.empty((t.size, 3))
+    if len(touching) == 1:  # the side opposite the corner is at distance one
+        a = touching[0]
+        points[:, a] = 1 - distance
+        points[:, (a + 1) % 3] = distance * (1 - u)
+        points[:, (a + 2) % 3] = distance * u
+        return points, 2 * distance * 2 * t * weight
+    a = next(k for k in range(3) if k not in touching) if len(touching) == 2 else 0
+    points[:, a] = distance
+    points[:, (a + 1) % 3] = (1 - distance) * (1 - u)
+    points[:, (a + 2) % 3] = (1 - distance) * u
+    return points, 2 * (1 - distance) * 2 * t * weight
