@@ -199,8 +199,9 @@ def test_the_axis_stays_the_axis() -> None:
     assert np.all(mesh.points[axis, 0] == 0)
 
 
+@pytest.mark.parametrize("marked_side", [0.0, 1.0])
 @pytest.mark.parametrize("reverse", [True, False])
-def test_mates_are_halved_together(reverse: bool) -> None:
+def test_mates_are_halved_together(reverse: bool, marked_side: float) -> None:
     """Catches a periodic boundary whose sides are cut differently after marks on one side only."""
     pair = Pair(0, 2, reverse=True)
     mesh, outline = square(4, (pair,))
@@ -211,8 +212,8 @@ def test_mates_are_halved_together(reverse: bool) -> None:
         mesh = Triangulation(mesh.points, mesh.triangles, mesh.region, edges, mesh.curve, mesh.vertex)
     mesh = prepare(mesh)
     for _ in range(6):
-        low = np.argmin(np.hypot(*(mesh.points[mesh.triangles].mean(axis=1) - [0.3, 0.0]).T))
-        marked = np.arange(mesh.triangles.shape[0]) == low
+        nearest = np.argmin(np.hypot(*(mesh.points[mesh.triangles].mean(axis=1) - [0.3, marked_side]).T))
+        marked = np.arange(mesh.triangles.shape[0]) == nearest
         refined = refine(mesh, outline, marked)
         check(refined, mesh, outline)
         mesh = refined.triangulation
