@@ -28,7 +28,7 @@ def energy_densities(system: System, psi: Floats) -> tuple[Floats, Floats]:
             continue
         if material.curve is not None:
             part = next(part for number, part in system.iron if number == index)
-            inside, squared = flux_density_squared(system.iron_curl[part], psi[mesh.elements[elements]])
+            _, squared = flux_density_squared(system.iron_curl[part], psi[mesh.elements[elements]])
             b, weight = np.sqrt(squared), system.iron_weight[part]
             stored = np.sum(weight * material.curve.energy_density(b), axis=1)
             energy[elements] += stored

@@ -15,7 +15,7 @@ from fluxbore.fem.mesh import Floats
 
 @dataclass(frozen=True, slots=True)
 class KelvinExterior:
-    """centre : z (m) of the exterior's ball on the axis. inner : R_i, the inside's radius (m). outer : the ball's, R_o."""
+    """centre : z (m) of the exterior's ball on the axis. inner : R_i, the inside's radius (m). outer : R_o."""
 
     centre: float
     inner: float

@@ -2,7 +2,7 @@
 
 Around each corner of the mesh, and in each region that meets there, a polynomial of second degree is fitted to the flux
 density at the quadrature points of the elements around it (Zienkiewicz and Zhu 1992, Int. J. Numer. Methods Eng. 33,
-1331). Blended by the corners' barycentric coordinates, the polynomials give a field that is continuous within the region
+1331). Blended by the corners' barycentric coordinates, the polynomials give a field that is continuous in the region
 and one order better than the elements' own where the field is smooth. Their difference estimates the error.
 """
 

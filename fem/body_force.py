@@ -1,0 +1,121 @@
+"""Force and torque on a body by the stress tensor in its domain form, and on currents by Lorentz' law.
+
+With a weight w that is one on the body and zero on everything else, space is displaced by δ w and the energy's change is
+F·δ = −∫ (T ∇w)·δ dV − ∫ w (J×B)·δ dV  over the air and the coils between, T = (B⊗B − ½|B|² I)/μ0. With w along a
+virtual displacement of the mesh it is the exact derivative of the discrete energy (Coulomb 1983).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from fluxbore.fem.conductors import current_density
+from fluxbore.fem.element import QUADRATURE_POINTS, from_frame, positions, shape
+from fluxbore.fem.magnetostatics import Solution
+from fluxbore.fem.mesh import Floats, Ints
+from fluxbore.fem.reluctivity import VACUUM_RELUCTIVITY
+from fluxbore.fem.weight import Weight
+
+Component = Literal["x", "y", "z", "torque"]
+
+
+@dataclass(frozen=True, slots=True)
+class BodyForce:
+    """force : N, (x, y) of a planar problem's depth or (radial, axial) of an axisymmetric one; the radial is zero.
+
+    torque : N m about the origin, of a planar problem. Zero in an axisymmetric one.
+    """
+
+    force: tuple[float, float]
+    torque: float
+
+
+def stress_force(solution: Solution, weight: Weight) -> BodyForce:
+    """By the stress tensor, over the weight's shell."""
+    planar = solution.problem.mesh.chart == "planar"
+    parts = _integrands(solution, weight)
+    extent = solution.problem.extent
+    if not planar:
+        return BodyForce((0.0, float(parts.sum(axis=0)[1]) * extent), 0.0)
+    first, second, torque = parts.sum(axis=0) * extent
+    return BodyForce((float(first), float(second)), float(torque))
+
+
+def stress_gradient(solution: Solution, weight: Weight, component: Component) -> Floats:
+    """(n,) ∂F/∂ψ of one component, at the solution.
+
+    The force is a quadratic function of ψ, and what is linear in it belongs to coils: central differences of the
+    integrand are exact.
+    """
+    column = {"x": 0, "y": 1, "z": 1, "torque": 2}[component]
+    mesh, shell = solution.problem.mesh, weight.shell
+    psi = solution.psi[mesh.elements[shell]]
+    step = float(np.abs(psi).max(initial=0.0)) or 1.0
+    gradient = np.empty(psi.shape)
+    for node in range(6):
+        up, down = psi.copy(), psi.copy()
+        up[:, node] += step
+        down[:, node] -= step
+        difference = _integrands(solution, weight, up) - _integrands(solution, weight, down)
+        gradient[:, node] = difference[:, column] / (2 * step)
+    nodal = np.bincount(mesh.elements[shell].ravel(), gradient.ravel(), mesh.nodes.shape[0])
+    return np.asarray(nodal * solution.problem.extent)
+
+
+def lorentz_force(solution: Solution, body: Collection[int]) -> BodyForce | None:
+    """∫ J×B dV over the body's conductors; None where the body is more than conductors in vacuum."""
+    problem = solution.problem
+    if any(problem.materials[region].magnetic for region in body):
+        return None
+    mesh = problem.mesh
+    elements = np.flatnonzero(np.isin(mesh.region, list(body)))
+    total = (_lorentz(solution, elements, solution.psi[mesh.elements[elements]])).sum(axis=(0, 1)) * problem.extent
+    if mesh.chart == "axisymmetric":
+        return BodyForce((0.0, float(total[1])), 0.0)
+    return BodyForce((float(total[0]), float(total[1])), float(total[2]))
+
+
+def _integrands(solution: Solution, weight: Weight, psi: Floats | None = None) -> Floats:
+    """(k, 3) each shell element's share of both force components and the torque, without the extent."""
+    problem = solution.problem
+    mesh, shell = problem.mesh, weight.shell
+    psi = solution.psi[mesh.elements[shell]] if psi is None else psi
+    curl, measure = solution.system.kernel.curl[shell], solution.system.kernel.weight[shell]
+    field = from_frame(mesh.chart, np.einsum("mqkn,mn->mqk", curl, psi, optimize=True))
+    nodal = weight.nodal[mesh.elements[shell]]
+    slope = np.einsum("mqkn,mn->mqk", curl, nodal, optimize=True)  # (∂w/∂s, ∂w/∂z /r) or (∂w/∂x, ∂w/∂y)
+    points = positions(mesh, shell)
+    if mesh.chart == "axisymmetric":
+        slope = slope * points[..., :1]
+    pressure = np.sum(field**2, axis=-1, keepdims=True) / 2
+    traction = VACUUM_RELUCTIVITY * (field * np.sum(field * slope, axis=-1, keepdims=True) - pressure * slope)
+    # A rotation x × traction, and the weight's own part: T is symmetric, so that nothing else is left.
+    turning = points[..., 0] * traction[..., 1] - points[..., 1] * traction[..., 0]
+    total = -np.concatenate((traction, turning[..., None]), axis=-1) * measure[..., None]
+    value = np.einsum("qn,mn->mq", shape(QUADRATURE_POINTS), nodal, optimize=True)
+    total -= value[..., None] * _lorentz(solution, shell, psi)
+    return np.asarray(total.sum(axis=1))
+
+
+def _lorentz(solution: Solution, elements: Ints, psi: Floats) -> Floats:
+    """(k, q, 3) force and torque of the currents at the quadrature points, times the measure."""
+    problem = solution.problem
+    mesh = problem.mesh
+    uniform, by_radius = (part[mesh.region[elements]] for part in current_density(problem))
+    points = positions(mesh, elements)
+    density = np.broadcast_to(uniform[:, None], points.shape[:2])
+    if np.any(by_radius):
+        density = density + by_radius[:, None] / np.maximum(points[..., 0], np.finfo(float).tiny)
+    curl, measure = solution.system.kernel.curl[elements], solution.system.kernel.weight[elements]
+    field = from_frame(mesh.chart, np.einsum("mqkn,mn->mqk", curl, psi, optimize=True))
+    amount = density * measure
+    if mesh.chart == "axisymmetric":  # φ × r = −z, φ × z = r
+        force = np.stack((amount * field[..., 1], -amount * field[..., 0]), axis=-1)
+    else:  # z × x = y, z × y = −x
+        force = np.stack((-amount * field[..., 1], amount * field[..., 0]), axis=-1)
+    turning = points[..., 0] * force[..., 1] - points[..., 1] * force[..., 0]
+    return np.concatenate((force, turning[..., None]), axis=-1)
