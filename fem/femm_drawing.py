@@ -43,7 +43,9 @@ def drawing(found: FemmText, metres: float, axisymmetric: bool, exterior: bool) 
         raise found.source.error("it must have segments or arcs; got none.")
     nodes = tuple(
         Node(
-            *_position(row, metres), row.reference(2, "The point property", count["point"]), row.integer(3, "group", 0)
+            *_position(row, metres),
+            row.reference(2, "The point property", count["point"]),
+            row.integer(3, "The group", 0),
         )
         for row in rows["numpoints"]
     )
@@ -61,7 +63,7 @@ def drawing(found: FemmText, metres: float, axisymmetric: bool, exterior: bool) 
         nodes,
         tuple(_segment(row, nodes, boundaries) for row in rows["numsegments"]),
         tuple(_arc(row, nodes, boundaries) for row in rows["numarcsegments"]),
-        tuple(Hole(*_position(row, metres), row.integer(2, "group", 0)) for row in rows["numholes"]),
+        tuple(Hole(*_position(row, metres), row.integer(2, "The group", 0)) for row in rows["numholes"]),
         labels,
     )
 
@@ -82,7 +84,7 @@ def _position(row: Row, metres: float) -> tuple[float, float]:
 
 def _node(row: Row, metres: float, properties: int) -> Node:
     x, y = _position(row, metres)
-    return Node(x, y, row.reference(2, "The point property", properties), row.integer(3, "group", 0))
+    return Node(x, y, row.reference(2, "The point property", properties), row.integer(3, "The group", 0))
 
 
 def _beside_the_axis(nodes: tuple[Node, ...], rows: Sequence[Row]) -> tuple[Node, ...]:
@@ -94,7 +96,7 @@ def _beside_the_axis(nodes: tuple[Node, ...], rows: Sequence[Row]) -> tuple[Node
 
 
 def _ends(row: Row, nodes: tuple[Node, ...], what: str) -> tuple[int, int]:
-    start, end = row.integer(0, f"{what} start"), row.integer(1, f"{what} end")
+    start, end = row.integer(0, f"{what}'s start"), row.integer(1, f"{what}'s end")
     for number in (start, end):
         if not 0 <= number < len(nodes):
             raise row.error(f"{what} must join points from 0 to {len(nodes) - 1}; got {number}.")
@@ -107,12 +109,8 @@ def _ends(row: Row, nodes: tuple[Node, ...], what: str) -> tuple[int, int]:
 def _boundary(row: Row, at: int, boundaries: Sequence[Property]) -> int | None:
     number = row.reference(at, "The boundary property", len(boundaries))
     if number is not None and (kind := unsupported(boundaries[number])):
-        raise _refused(row, kind)
+        raise row.error(f"A boundary must be prescribed, mixed, periodic or antiperiodic; {kind} is not supported.")
     return number
-
-
-def _refused(row: Row, kind: str) -> SpecError:
-    return row.error(f"A boundary must be prescribed, mixed, periodic or antiperiodic; {kind} is not supported.")
 
 
 def _segment(row: Row, nodes: tuple[Node, ...], boundaries: Sequence[Property]) -> Segment:
@@ -123,8 +121,8 @@ def _segment(row: Row, nodes: tuple[Node, ...], boundaries: Sequence[Property]) 
         end,
         size if size > 0 else None,
         _boundary(row, 3, boundaries),
-        bool(row.integer(4, "hidden", 0)),
-        row.integer(5, "group", 0),
+        bool(row.integer(4, "The hidden flag", 0)),
+        row.integer(5, "The group", 0),
     )
 
 
@@ -140,8 +138,8 @@ def _arc(row: Row, nodes: tuple[Node, ...], boundaries: Sequence[Property]) -> A
         min(angle, 180.0),
         widest if widest > 0 else 5.0,
         _boundary(row, 4, boundaries),
-        bool(row.integer(5, "hidden", 0)),
-        row.integer(6, "group", 0),
+        bool(row.integer(5, "The hidden flag", 0)),
+        row.integer(6, "The group", 0),
     )
 
 
@@ -163,7 +161,7 @@ def _label(row: Row, metres: float, materials: int, circuits: int) -> BlockLabel
         size=size if size > 0 else None,
         circuit=row.reference(4, "The circuit", circuits),
         magnetisation=direction,
-        group=row.integer(6, "group", 0),
+        group=row.integer(6, "The group", 0),
         turns=row.number(7, "The number of turns", 1.0),
         external=bool(flags & 1),
         default=bool(flags & 2),

@@ -159,7 +159,7 @@ def unquoted(text: str) -> str:
 def take_apart(text: str, source: Source) -> FemmText:
     """Raises SpecError where a line cannot be placed, or where fewer rows stand than are announced."""
     # Not splitlines(): that also breaks at the odd separators that a name may hold.
-    return _Scanner(source, text.split("\n")).scan()
+    return _Scanner(source, text.replace("\r\n", "\n").replace("\r", "\n").split("\n")).scan()
 
 
 class _Scanner:
@@ -208,6 +208,8 @@ class _Scanner:
                 self.open.curve = self.take_rows(entry)
         else:
             self.found.settings[key] = entry
+            if key == "solution":  # of an .ans file: what follows are its mesh and potentials
+                self.at = len(self.lines)
 
     def begin(self, kind: str, entry: Entry) -> None:
         if self.open is not None:

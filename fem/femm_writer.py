@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from numbers import Integral
+from typing import SupportsFloat
+
 from fluxbore.design.errors import OutputError, shown
 from fluxbore.fem.femm_model import (
     Arc,
@@ -28,19 +31,19 @@ def write_text(model: FemmModel) -> str:
     lines = [
         "[Format]      =  4.0",
         "[Frequency]   =  0",
-        f"[Precision]   =  {model.precision!r}",
-        f"[MinAngle]    =  {model.min_angle!r}",
+        f"[Precision]   =  {_text(model.precision)}",
+        f"[MinAngle]    =  {_text(model.min_angle)}",
         "[DoSmartMesh] =  1",
-        f"[Depth]       =  {model.depth!r}",
+        f"[Depth]       =  {_text(model.depth)}",
         f"[LengthUnits] =  {model.unit}",
         f"[ProblemType] =  {'axisymmetric' if model.axisymmetric else 'planar'}",
     ]
     if model.axisymmetric and model.exterior is not None:
         outside = model.exterior
         lines += [
-            f"[extZo] = {outside.centre!r}",
-            f"[extRo] = {outside.outer_radius!r}",
-            f"[extRi] = {outside.inner_radius!r}",
+            f"[extZo] = {_text(outside.centre)}",
+            f"[extRo] = {_text(outside.outer_radius)}",
+            f"[extRi] = {_text(outside.inner_radius)}",
         ]
     lines += [
         f"[Coordinates] =  {'polar' if model.polar else 'cartesian'}",
@@ -174,12 +177,17 @@ def _label(label: BlockLabel) -> str:
 
 
 def _property(kind: str, entries: dict[str, str | float]) -> list[str]:
-    body = [f"    <{key}> = {value if isinstance(value, str) else repr(value)}" for key, value in entries.items()]
+    body = [f"    <{key}> = {value if isinstance(value, str) else _text(value)}" for key, value in entries.items()]
     return [f"  <Begin{kind}>", *body, f"  <End{kind}>"]
 
 
 def _row(*cells: float) -> str:
-    return "\t".join(repr(cell) for cell in cells)
+    return "\t".join(map(_text, cells))
+
+
+def _text(value: SupportsFloat) -> str:
+    """The shortest that reads back as the same number; also for numpy's, whose repr is no number."""
+    return str(int(value)) if isinstance(value, Integral) else repr(float(value))
 
 
 def _number(index: int | None) -> int:
@@ -189,10 +197,10 @@ def _number(index: int | None) -> int:
 
 def _millionth(value: float) -> str:
     """value / 1e6, so that a reader's multiplication gives exactly ``value`` again."""
-    text = repr(value / 1e6)
+    text = _text(value / 1e6)
     if shifted(text, 6) == value:
         return text
-    mantissa, _, exponent = repr(value).partition("e")
+    mantissa, _, exponent = repr(float(value)).partition("e")
     return f"{mantissa}e{int(exponent or 0) - 6}"
 
 
