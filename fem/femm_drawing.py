@@ -56,9 +56,7 @@ def drawing(found: FemmText, metres: float, axisymmetric: bool, exterior: bool) 
         if axisymmetric and label.x < 0:
             raise row.error(f"A block label's r must not be negative; got {label.x:g}.")
         if axisymmetric and label.external and not exterior:
-            raise row.error(
-                "A label of the exterior region must have [extZo], [extRo] and [extRi] in the file; got none."
-            )
+            raise row.error("A label of the exterior region must have [extRo] and [extRi] in its file; got none.")
     return Drawing(
         nodes,
         tuple(_segment(row, nodes, boundaries) for row in rows["numsegments"]),
