@@ -43,6 +43,8 @@ class Source:
         return value
 
     def integer(self, text: str, what: str, line: int) -> int:
+        if len(text) < 10 and text.isascii() and text.isdigit():  # most cells of a large drawing
+            return int(text)
         value = self.number(text, what, line)
         if not (value.is_integer() and abs(value) < 2**31):
             raise self.error(f"{what} must be a whole number; got {shown(text)}.", line)

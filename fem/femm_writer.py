@@ -187,6 +187,8 @@ def _row(*cells: float) -> str:
 
 def _text(value: SupportsFloat) -> str:
     """The shortest that reads back as the same number; also for numpy's, whose repr is no number."""
+    if type(value) is float or type(value) is int:
+        return repr(value)
     return str(int(value)) if isinstance(value, Integral) else repr(float(value))
 
 

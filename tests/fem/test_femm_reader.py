@@ -307,7 +307,7 @@ def test_steels_of_femm_just_below_the_slope_of_air_are_read() -> None:
         ("5\t5\t2\t0.25", "5\t5\t4\t0.25", "block property must be one of the 3", ""),
         ("0.25\t1\t90", "0.25\t2\t90", "circuit must be one of the 1", ""),
         ('"theta + 180"', '"theta + foo"', 'The formula "theta \\+ foo" must be .*"foo" is not known', ""),
-        ("<EndBlock>", "", "must not stand within the property that line 49 begins", '<BeginBlock>\n    <BlockName> = "st'),
+        ("<EndBlock>", "", "stand within the property that line 49 begins", '<BeginBlock>\n    <BlockName> = "st'),
         ("<BeginBlock>", "", "<EndBlock> must end a property", "<EndBlock>"),
         ("  <EndCircuit>\n", "", "<Begincircuit> must be closed", "<BeginCircuit>"),
         ("[ACSolver]    =  0", "ACSolver = 0", "no key in", ""),
