@@ -372,3 +372,23 @@ def test_mixed_slab() -> None:
     assert -field / MU_0 + c0 * edge + c1 == pytest.approx(0.0, abs=1e-9 * abs(field / MU_0))
     assert (a(0.011) - a(0.009)) / 0.002 == pytest.approx(-layers.mixed_slab(density, width, c0, c1, 0.01)[1], rel=1e-9)
     assert a(0.0) == 0.0
+
+
+def test_magnet_and_coil_by_lorentz() -> None:
+    """Catches a sign of the end loops: F = −J ∫ B_r of the magnet over the winding, and 2π r A of its flux."""
+    coil, magnet = coils.Coil(200, 2.0, 0.012, 0.016, 0.004, 0.014), (1.2, 0.01, 0.02)
+    r, z, share = loops_of(coil, 16)
+    radial = cylinders.magnet_flux_density(*magnet, r, z)[:, 0]
+    assert coils.force_by_magnet(coil, *magnet) == pytest.approx(
+        -400 * np.sum(2 * np.pi * r * share * radial), rel=1e-8
+    )
+    step = 1e-6
+    ends = [
+        coils.linkage_by_magnet(coils.Coil(200, 2.0, 0.012, 0.016, 0.004 + h, 0.014 + h), *magnet)
+        for h in (-step, step)
+    ]
+    assert coils.force_by_magnet(coil, *magnet) == pytest.approx(2 * (ends[1] - ends[0]) / (2 * step), rel=1e-5)
+    thin = coils.Coil(1, 1.0, 0.01399, 0.01401, 0.00499, 0.00501)
+    through = quad(lambda r: 2 * np.pi * r * float(cylinders.magnet_flux_density(*magnet, r, 0.005)[1]), 1e-9, 0.01)
+    through += quad(lambda r: 2 * np.pi * r * float(cylinders.magnet_flux_density(*magnet, r, 0.005)[1]), 0.01, 0.014)
+    assert coils.linkage_by_magnet(thin, *magnet) == pytest.approx(through, rel=1e-5)

@@ -11,7 +11,7 @@ from scipy.integrate import quad, quad_vec
 from scipy.special import j0, j1, struve
 
 from exact.cylinders import sheet_flux_density
-from exact.loops import MU_0, Floats
+from exact.loops import MU_0, Floats, mutual_inductance
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,3 +110,25 @@ def attraction(one: Coil, other: Coil) -> float:
 
     scale = MU_0 * np.pi * one.turns * other.turns / (one.area * other.area)
     return float(one.current * other.current * scale * _over(integrand, max(one.outer, other.outer)))
+
+
+def _with_sheet(coil: Coil, remanence: float, radius: float, at: float) -> float:
+    """Linkage (Wb/m) of the coil with a loop of Br/μ0 at height `at` (A/m): Gauss rule over the winding."""
+    points, weights = np.polynomial.legendre.leggauss(32)
+    r = (coil.inner + coil.outer) / 2 + (coil.outer - coil.inner) / 2 * points
+    z = (coil.lower + coil.upper) / 2 + (coil.upper - coil.lower) / 2 * points
+    table = mutual_inductance(r[:, None], radius, z[None, :] - at)
+    return float(coil.turns * remanence / MU_0 * (weights @ table @ weights) / 4)
+
+
+def linkage_by_magnet(coil: Coil, remanence: float, radius: float, length: float) -> float:
+    """Flux (Wb) through a coil around an axially magnetised cylinder of μ_r = 1 centred at the origin."""
+    return float(
+        quad(lambda z: _with_sheet(coil, remanence, radius, z), -length / 2, length / 2, epsrel=1e-9, epsabs=0)[0]
+    )
+
+
+def force_by_magnet(coil: Coil, remanence: float, radius: float, length: float) -> float:
+    """F_z (N) on the coil: I ∂λ/∂z of the coil, which leaves the linkage with the magnet's two end loops."""
+    below, above = (_with_sheet(coil, remanence, radius, z) for z in (-length / 2, length / 2))
+    return coil.current * (below - above)
