@@ -34,7 +34,8 @@ class Locator:
         self._mesh = mesh
         nodes = mesh.nodes[mesh.elements]
         low, high = mesh.positions.min(axis=0), mesh.positions.max(axis=0)
-        self._snap = snap * float(np.hypot(*(high - low)))
+        self._size = float(np.hypot(*(high - low)))
+        self._snap = snap
         # Where rounding alone would put an element's points: of weight near the axis, where s is small beside its box.
         self._rounding = 1e-14 * np.abs(nodes).max(axis=1)
         corners, bend = nodes[:, :3], nodes[:, 3:] - (nodes[:, :3] + np.roll(nodes[:, :3], -1, axis=1)) / 2
@@ -55,20 +56,24 @@ class Locator:
         stray = 4 / 3 * np.abs(np.einsum("mij,mkj->mki", self._to_place, bend)).max(axis=(1, 2))
         self._stray = np.where(flat, np.inf, stray)
 
-    def find(self, points: Floats) -> tuple[Ints, Floats]:
+    def find(self, points: Floats, reach: float = 0.0) -> tuple[Ints, Floats]:
         """The element (k,) that holds each point (k, 2), in space in metres, and the barycentric place (k, 3) in it.
 
         −1 outside the mesh, with a place of NaN. Of several elements that hold a point the lowest in number is given;
-        places are never outside their element.
+        places are never outside their element. reach : a point that no element holds is moved to about the nearest
+        place within this share of the mesh's diagonal, for points between an arc and the parabolas that stand for it.
         """
         points = np.asarray(points, dtype=float)
         element = np.full(points.shape[0], -1)
         barycentric = np.full((points.shape[0], 3), np.nan)
-        for start in range(0, points.shape[0], _POINTS_AT_ONCE):
-            point, holder, place = self._holders(points[start : start + _POINTS_AT_ONCE])
-            first = np.flatnonzero(np.diff(point, prepend=-1))
-            element[start + point[first]] = holder[first]
-            barycentric[start + point[first]] = place[first]
+        for snap in (self._snap, reach)[: 1 + (reach > self._snap)]:
+            lost = np.flatnonzero(element < 0)
+            for some in np.array_split(lost, 1 + lost.size // _POINTS_AT_ONCE):
+                point, holder, place, miss = self._holders(points[some], snap)
+                order = np.lexsort((holder, miss if snap > self._snap else holder, point))
+                first = order[np.flatnonzero(np.diff(point[order], prepend=-1))]
+                element[some[point[first]]] = holder[first]
+                barycentric[some[point[first]]] = place[first]
         return element, barycentric
 
     def find_all(self, point: Floats) -> list[tuple[int, Floats]]:
@@ -76,21 +81,22 @@ class Locator:
 
         For means over the elements that meet at a corner, an edge or an interface; empty outside the mesh.
         """
-        _, holder, place = self._holders(np.asarray(point, dtype=float).reshape(1, 2))
-        return list(zip(holder.tolist(), place, strict=True))
+        _, holder, place, _ = self._holders(np.asarray(point, dtype=float).reshape(1, 2), self._snap)
+        order = np.argsort(holder)
+        return list(zip(holder[order].tolist(), place[order], strict=True))
 
-    def _holders(self, points: Floats) -> tuple[Ints, Ints, Floats]:
-        """Pairs of a point and an element that holds it, in the order of both, and the places (n, 3)."""
-        chart, slack = self._in_chart(points)
+    def _holders(self, points: Floats, snap: float) -> tuple[Ints, Ints, Floats, Floats]:
+        """Pairs of a point and an element that holds it: their numbers, the places (n, 3), the misses (n,) in snaps."""
+        chart, slack = self._in_chart(points, snap * self._size)
         point, element = self._boxes.around(chart - slack, chart + slack)
         point, element, start = self._possible(chart, slack, point, element)
-        order = np.lexsort((element, point))
-        point, element, start = point[order], element[order], start[order]
         nodes = self._mesh.nodes[self._mesh.elements[element]]
         place = _inverse(nodes, chart[point], start, self._rounding[element] / 10)
         miss = np.abs(np.einsum("nk,nkd->nd", shape(place), nodes) - chart[point])
+        allowed = slack[point] + self._rounding[element]
+        share = np.hypot(*(miss / np.where(allowed > 0, allowed, 1.0)).T)
         held = np.all(miss <= _SKEW * slack[point] + self._rounding[element], axis=1)
-        return point[held], element[held], place[held]
+        return point[held], element[held], place[held], share[held]
 
     def _possible(self, chart: Floats, slack: Floats, point: Ints, element: Ints) -> tuple[Ints, Ints, Floats]:
         """The pairs that the elements' bends leave possible, and b and c (n, 2) in the straight triangle of each."""
@@ -102,14 +108,14 @@ class Locator:
         kept = np.all(start >= -margin, axis=1) & (start.sum(axis=1) <= 1 + margin.sum(axis=1))
         return point[kept], element[kept], start[kept]
 
-    def _in_chart(self, points: Floats) -> tuple[Floats, Floats]:
+    def _in_chart(self, points: Floats, snap: float) -> tuple[Floats, Floats]:
         """Points (k, 2) in the chart, NaN where none can be, and how far (k, 2) each may be moved there."""
         points = np.where(np.isfinite(points), points, np.nan)
-        slack = np.full(points.shape, self._snap)
+        slack = np.full(points.shape, snap)
         if self._mesh.chart == "axisymmetric":
-            r = np.where(points[:, 0] < -self._snap, np.nan, np.maximum(points[:, 0], 0.0))
+            r = np.where(points[:, 0] < -snap, np.nan, np.maximum(points[:, 0], 0.0))
             points = np.column_stack((r, points[:, 1]))
-            slack[:, 0] = self._snap * (r + self._snap / 2)
+            slack[:, 0] = snap * (r + snap / 2)
         with np.errstate(over="ignore"):
             return in_chart(self._mesh.chart, points), slack
 

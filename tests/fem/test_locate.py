@@ -168,3 +168,25 @@ def test_half_a_disc_in_one_element() -> None:
     element, place = Locator(mesh).find(points)
     assert element.tolist() == [0, 0, 0, 0, -1, -1]
     assert points_of(mesh, element[:4], place[:4]) == pytest.approx(points[:4], abs=1e-9)
+
+
+def test_a_point_of_the_true_arc_is_reached() -> None:
+    """Catches a point on the rim of a drawing lost in the gap between a circle and the parabolas that stand for it."""
+    angle = np.pi * np.arange(8) / 4
+    ring, middle = ([np.cos(a), np.sin(a)] for a in (angle, angle + np.pi / 8))
+    nodes = np.concatenate(([[0.0, 0.0]], np.transpose(ring), np.transpose(middle), np.transpose(ring) / 2))
+    k = np.arange(8)
+    elements = np.column_stack((0 * k, 1 + k, 1 + (k + 1) % 8, 17 + k, 9 + k, 17 + (k + 1) % 8))
+    mesh = Mesh("planar", nodes, np.zeros(8, dtype=np.int_), Topology(elements, np.arange(25)))
+    fine = 2 * np.pi * (np.arange(299) + 0.3) / 299
+    rim = np.column_stack((np.cos(fine), np.sin(fine)))
+    locator = Locator(mesh)
+    assert np.count_nonzero(locator.find(rim)[0] < 0) > 200
+    element, place = locator.find(rim, reach=1e-2)
+    assert np.array_equal(element, (fine // (np.pi / 4)).astype(int)), "the nearest element, not the first in reach"
+    assert points_of(mesh, element, place) == pytest.approx(rim, abs=2e-3)
+    assert np.all(locator.find(1.3 * rim, reach=1e-2)[0] == -1)
+    # Points inside are found as without a reach.
+    inside, where = locator.find(0.7 * rim, reach=1e-2)
+    assert np.array_equal(inside, locator.find(0.7 * rim)[0])
+    assert points_of(mesh, inside, where) == pytest.approx(0.7 * rim, abs=1e-9)
