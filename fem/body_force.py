@@ -1,6 +1,6 @@
 """Force and torque on a body by the stress tensor in its domain form, and on currents by Lorentz' law.
 
-With a weight w that is one on the body and zero on everything else, space is displaced by δ w and the energy's change is
+With a weight w that is one on the body and zero on everything else, space is displaced by δ w and the energy changes by
 F·δ = −∫ (T ∇w)·δ dV − ∫ w (J×B)·δ dV  over the air and the coils between, T = (B⊗B − ½|B|² I)/μ0. With w along a
 virtual displacement of the mesh it is the exact derivative of the discrete energy (Coulomb 1983).
 """
@@ -64,6 +64,12 @@ def stress_gradient(solution: Solution, weight: Weight, component: Component) ->
         gradient[:, node] = difference[:, column] / (2 * step)
     nodal = np.bincount(mesh.elements[shell].ravel(), gradient.ravel(), mesh.nodes.shape[0])
     return np.asarray(nodal * solution.problem.extent)
+
+
+def stress_scale(solution: Solution, weight: Weight, component: Component) -> float:
+    """The shell elements' shares of a component added up without their signs: what it is small or large against."""
+    column = {"x": 0, "y": 1, "z": 1, "torque": 2}[component]
+    return float(np.abs(_integrands(solution, weight)[:, column]).sum() * solution.problem.extent)
 
 
 def lorentz_force(solution: Solution, body: Collection[int]) -> BodyForce | None:

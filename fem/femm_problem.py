@@ -14,10 +14,10 @@ from fluxbore.fem.conductors import circuit, region_load
 from fluxbore.fem.femm_model import BlockLabel, BlockProperty, BoundaryProperty, FemmModel
 from fluxbore.fem.formula import Formula, parse_formula
 from fluxbore.fem.kelvin import KelvinExterior
-from fluxbore.fem.mesh import Floats, Mesh
+from fluxbore.fem.mesh import Floats, Ints, Mesh
 from fluxbore.fem.outline import HOLE, Curve, Outline, Pair, Seed
 from fluxbore.fem.problem import Circuit, Conductor, Field, MagneticMaterial, Problem, Stack
-from fluxbore.fem.reluctivity import VACUUM_RELUCTIVITY, reluctivity_curve
+from fluxbore.fem.reluctivity import VACUUM_RELUCTIVITY, ReluctivityCurve, reluctivity_curve
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -62,7 +62,7 @@ def drawing(model: FemmModel) -> Drawing:
     return Drawing(outline, Conditions([_rule(model, item) for item in model.boundaries], points))
 
 
-def problem(model: FemmModel, conditioned: ConditionedMesh, vertex: Floats) -> Problem:
+def problem(model: FemmModel, conditioned: ConditionedMesh, vertex: Ints) -> Problem:
     """The problem of a file on a mesh of its drawing.
 
     vertex : (p,) node of each of the file's nodes, −1 where there is none.
@@ -151,8 +151,14 @@ def _material(model: FemmModel, label: BlockLabel) -> MagneticMaterial:
             b = block.fill * b + (1 - block.fill) * MU_0 * h
         else:
             stack = Stack(block.fill, 0 if block.lamination == "parallel to x" else 1)
-    curve = reluctivity_curve(BHCurve(block.name, tuple(b.tolist()), tuple(h.tolist()), _file(model)))
-    return MagneticMaterial(coercivity=coercivity, curve=curve, stack=stack)
+    return MagneticMaterial(coercivity=coercivity, curve=_curve(block.name, b, h, _file(model)), stack=stack)
+
+
+def _curve(name: str, b: Floats, h: Floats, source: str) -> ReluctivityCurve:
+    """Tables of FEMM's own library end a few per cent below the slope of vacuum: their steps of H are cut to it."""
+    b, h = (values if b[0] == 0 else np.concatenate(([0.0], values)) for values in (b, h))
+    h = np.concatenate(([0.0], np.cumsum(np.minimum(np.diff(h), np.diff(b) * VACUUM_RELUCTIVITY))))
+    return reluctivity_curve(BHCurve(name, tuple(b.tolist()), tuple(h.tolist()), source))
 
 
 def _reluctivity(block: BlockProperty) -> tuple[float, float]:
@@ -255,7 +261,7 @@ def _block_sources(model: FemmModel, mesh: Mesh) -> list[Circuit]:
     return found
 
 
-def _point_sources(model: FemmModel, mesh: Mesh, vertex: Floats) -> list[Circuit]:
+def _point_sources(model: FemmModel, mesh: Mesh, vertex: Ints) -> list[Circuit]:
     load = np.zeros(mesh.nodes.shape[0])
     for number, node in enumerate(model.nodes):
         current = 0.0 if node.prop is None else model.points[node.prop].current

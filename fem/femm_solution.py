@@ -1,0 +1,199 @@
+"""A FEMM file solved: refinement to the accuracy asked for, and the figures that FEMM's users ask of a solution."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from fluxbore.design.errors import SpecError
+from fluxbore.fem.adapt import Adapted, Goal, solve_adaptively
+from fluxbore.fem.body_force import BodyForce, lorentz_force, stress_force
+from fluxbore.fem.conditions import conditioned_mesh
+from fluxbore.fem.energy import energies
+from fluxbore.fem.femm_model import FemmModel
+from fluxbore.fem.femm_problem import Drawing, drawing, problem
+from fluxbore.fem.goals import EnergyGoal, ForceGoal, LinkageGoal
+from fluxbore.fem.linkage import flux_linkages
+from fluxbore.fem.locate import Locator
+from fluxbore.fem.magnetostatics import Settings, Solution
+from fluxbore.fem.mesh import Floats
+from fluxbore.fem.probe import Probe, probe
+from fluxbore.fem.problem import Problem
+from fluxbore.fem.quadratic import quadratic_nodes
+from fluxbore.fem.recovery import RecoveredField
+from fluxbore.fem.triangulation import Triangulation
+from fluxbore.fem.unstructured import triangulate
+from fluxbore.fem.weight import layer_weight, smooth_weight
+
+DEFAULT_ACCURACY = 1e-3
+"""Of the estimated error of energy, linkages and forces, where none is asked for."""
+
+MAX_UNKNOWNS = 150_000
+"""Refinement ends here, and says that the accuracy was not reached."""
+
+
+@dataclass(frozen=True, slots=True)
+class GroupForce:
+    """Force and torque on a group.
+
+    by_stress : over the whole of the air around it. by_layer : by virtual work over the layer that touches it.
+    lorentz : of its currents, where it is nothing but coils. error : N, by how much the routes differ. touches : the
+    labels of magnetic regions that it touches; the force is not defined then.
+    """
+
+    by_stress: BodyForce
+    by_layer: BodyForce
+    lorentz: BodyForce | None
+    touches: tuple[int, ...]
+
+    @property
+    def error(self) -> float:
+        routes = [self.by_layer] if self.lorentz is None else [self.by_layer, self.lorentz]
+        a = np.array(self.by_stress.force)
+        return float(max(np.linalg.norm(a - np.array(route.force)) for route in routes))
+
+
+@dataclass(frozen=True, eq=False)
+class FemmSolution:
+    """model : as it was solved, with whatever was set. accuracy : asked for, relative."""
+
+    model: FemmModel
+    drawing: Drawing
+    adapted: Adapted
+    accuracy: float
+
+    @property
+    def solution(self) -> Solution:
+        return self.adapted.solution
+
+    @property
+    def field(self) -> RecoveredField:
+        return self.adapted.field
+
+    @cached_property
+    def locator(self) -> Locator:
+        return Locator(self.solution.problem.mesh)
+
+    @cached_property
+    def energies(self) -> tuple[float, float]:
+        """Energy and coenergy (J)."""
+        return energies(self.solution)
+
+    @cached_property
+    def linkages(self) -> Floats:
+        """(k,) of the circuits (Wb)."""
+        return flux_linkages(self.solution)
+
+    def regions(self, group: int) -> tuple[int, ...]:
+        """Numbers of the labels of a group. Raises SpecError where there are none."""
+        return regions_of(self.model, group)
+
+    def force(self, group: int) -> GroupForce:
+        """On a group of labels."""
+        regions = self.regions(group)
+        problem = self.solution.problem
+        smooth = smooth_weight(problem, regions)
+        return GroupForce(
+            stress_force(self.solution, smooth),
+            stress_force(self.solution, layer_weight(problem, regions)),
+            lorentz_force(self.solution, regions),
+            smooth.touched,
+        )
+
+    def probe(self, points: Floats) -> Probe:
+        """A, B and H at points (k, 2) in the file's unit. Raises SpecError for one outside the model."""
+        return probe(self.solution, self.field, self.locator, points * self.model.metres)
+
+    def inductances(self) -> Floats:
+        """(k, k) incremental inductances dλ_i/dI_j (H) at the solution."""
+        solution = self.solution
+        gather = solution.system.topology.gather
+        loads = np.column_stack([gather(c.density) for c in solution.problem.circuits])
+        return np.asarray(solution.problem.extent * loads.T @ solution.tangent.solve(loads))
+
+
+def regions_of(model: FemmModel, group: int) -> tuple[int, ...]:
+    """Numbers of the labels of a group. Raises SpecError where there are none."""
+    found = tuple(number for number, label in enumerate(model.labels) if label.group == group)
+    if not found:
+        known = sorted({label.group for label in model.labels})
+        raise SpecError(
+            f"--group must be the group of a block label, one of {', '.join(map(str, known))}; got {group}."
+        )
+    return found
+
+
+def solve_model(
+    model: FemmModel,
+    groups: Sequence[int] = (),
+    points: Sequence[tuple[float, float]] = (),
+    accuracy: float | None = None,
+    max_unknowns: int = MAX_UNKNOWNS,
+) -> FemmSolution:
+    """Mesh, solve and refine until the estimated errors hold.
+
+    groups : whose forces are to be accurate. points : file's unit, where B is to be. accuracy : relative, 1e-3 without.
+
+    Raises SpecError, MeshError for files that mean nothing; a failure to converge is in the solution.
+    """
+    accuracy = DEFAULT_ACCURACY if accuracy is None else accuracy
+    drawn = drawing(model)
+    for group in groups:
+        regions_of(model, group)
+    goals = goals_of(model, groups)
+
+    def discretise(triangulation: Triangulation) -> Problem:
+        quadratic = quadratic_nodes(triangulation, drawn.outline)
+        conditioned = conditioned_mesh(triangulation, quadratic, drawn.outline, drawn.conditions)
+        return problem(model, conditioned, triangulation.vertex)
+
+    places = np.array(points, dtype=float).reshape(-1, 2) * model.metres
+
+    def watched(solution: Solution, field: RecoveredField) -> Floats:
+        return _local_error(solution, field, places)
+
+    adapted = solve_adaptively(
+        discretise,
+        triangulate(drawn.outline),
+        drawn.outline,
+        goals,
+        accuracy,
+        Settings(tolerance=1e-8, method="auto"),
+        watched if len(points) else None,
+        max_unknowns,
+    )
+    return FemmSolution(model, drawn, adapted, accuracy)
+
+
+def goals_of(model: FemmModel, groups: Sequence[int]) -> list[Goal]:
+    """The energy, the linkages of circuits with coils, and the forces on groups."""
+    goals: list[Goal] = [EnergyGoal()]
+    for number, item in enumerate(model.circuits):
+        if any(label.circuit == number for label in model.labels):
+            goals.append(LinkageGoal(f"flux linkage of {item.name}", number))
+    for group in groups:
+        regions = regions_of(model, group)
+        if model.axisymmetric:
+            goals.append(ForceGoal(f"axial force on group {group}", regions, "z"))
+        else:
+            goals.append(ForceGoal(f"x force on group {group}", regions, "x"))
+            goals.append(ForceGoal(f"y force on group {group}", regions, "y"))
+    return goals
+
+
+def _local_error(solution: Solution, field: RecoveredField, places: Floats) -> Floats:
+    """(m,) |B − B_h| over |B| in the elements that hold the places, zero elsewhere."""
+    mesh = solution.problem.mesh
+    relative = np.zeros(mesh.region.size)
+    elements = np.unique(Locator(mesh).find(places)[0])
+    elements = elements[elements >= 0]
+    if not elements.size:
+        return relative
+    recovered = field.at_quadrature(elements)
+    error = np.sqrt(np.mean(np.sum((recovered - solution.flux_density(elements)) ** 2, axis=-1), axis=1))
+    size = np.sqrt(np.mean(np.sum(recovered**2, axis=-1), axis=1))
+    relative[elements] = np.divide(error, size, out=np.zeros_like(error), where=size > 0)
+    return relative

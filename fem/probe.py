@@ -1,0 +1,71 @@
+"""The field at points."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from fluxbore.design.errors import SpecError
+from fluxbore.fem.element import from_frame, shape, to_frame
+from fluxbore.fem.locate import Locator
+from fluxbore.fem.magnetostatics import Solution, in_sheets
+from fluxbore.fem.mesh import Floats, Ints
+from fluxbore.fem.recovery import RecoveredField
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Probe:
+    """The field at k points.
+
+    potential : (k,) A (Wb/m), or r·A (Wb/rad) in an axisymmetric problem. flux_density : (k, 2) T in (x, y) or (r, z).
+    field_strength : (k, 2) A/m. region : (k,).
+    """
+
+    potential: Floats
+    flux_density: Floats
+    field_strength: Floats
+    region: Ints
+
+
+def probe(solution: Solution, field: RecoveredField, locator: Locator, points: Floats) -> Probe:
+    """The field at points (k, 2) in m; on an interface the one of the region that comes first.
+
+    Raises SpecError for a point outside the mesh.
+    """
+    mesh = solution.problem.mesh
+    elements, places = locator.find(points)
+    outside = np.flatnonzero(elements < 0)
+    if outside.size:
+        x, y = points[outside[0]]
+        raise SpecError(f"A point must lie inside the model; ({x:g}, {y:g}) m does not.")
+    potential = np.einsum("kn,kn->k", shape(places), solution.psi[mesh.elements[elements]], optimize=True)
+    b = field.at(elements, places)
+    h = np.empty_like(b)
+    region = mesh.region[elements]
+    for index in np.unique(region):
+        mine = region == index
+        h[mine] = field_strength(solution, int(index), b[mine], points[mine])
+    return Probe(potential, from_frame(mesh.chart, b), from_frame(mesh.chart, h), region)
+
+
+def field_strength(solution: Solution, region: int, b: Floats, points: Floats) -> Floats:
+    """H (k, 2) in A/m for B (k, 2) in T, both in the kernel's frame, in one region at points (k, 2) in m."""
+    chart = solution.problem.mesh.chart
+    material = solution.problem.materials[region]
+    first, second = material.components
+    h = b * np.array([second, first])
+    if material.grade is not None:
+        h *= material.grade.factor(points)[:, None]
+    if material.curve is not None:
+        stretch, share = np.ones(2), 1.0
+        if material.stack is not None:
+            stretch, share = in_sheets(material.stack), material.stack.fill
+        inside = b * stretch
+        nu, _ = material.curve.reluctivity(np.sum(inside**2, axis=1))
+        h += share * stretch * inside * nu[:, None]
+    if callable(material.coercivity):
+        h -= to_frame(chart, material.coercivity(points))
+    else:
+        h -= to_frame(chart, np.array(material.coercivity))
+    return h
