@@ -25,6 +25,10 @@ class MaterialError(FluxboreError):
     """A material is unknown or its data break a physical law (a B-H curve that is not monotone, for one)."""
 
 
+class MeshError(FluxboreError):
+    """A drawing cannot be meshed: curves cross, a face has no label, or the mesh would be too large."""
+
+
 class OutputError(FluxboreError):
     """Something cannot be written, or a folder holds the results of another specification."""
 
