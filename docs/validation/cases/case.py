@@ -21,8 +21,9 @@ Point = tuple[float, float]
 class Check:
     """One quantity.
 
-    exact : SI. scale : what an error is relative to, the size of a vector for its components. tolerance : relative.
-    path : keys and indices into a result; within the entry of its point, where it has one. at : in the file's unit.
+    name : with {0} and {1} in the place of the coordinates' letters. exact : SI. scale : what an error is relative to,
+    the size of a vector for its components. tolerance : relative. path : keys and indices into a result; within the
+    entry of its point, where it has one. at : in the file's unit.
     """
 
     name: str
@@ -72,6 +73,10 @@ class Case:
         """Where the field is asked for, in the file's unit."""
         return tuple(dict.fromkeys(check.at for check in self.checks if check.at is not None))
 
+    def label(self, check: Check) -> str:
+        """The check's name in this case's coordinates."""
+        return check.name.format(*("r", "z") if self.model.axisymmetric else ("x", "y"))
+
     @property
     def groups(self) -> tuple[int, ...]:
         """Whose force or torque is asked for."""
@@ -94,7 +99,7 @@ def coenergy(exact: float) -> Check:
 
 def force(group: int, axis: int, exact: float, scale: float | None = None, tolerance: float = FORCE) -> Check:
     """axis : 0 for x, 1 for y or z. exact : N."""
-    name = f"force on group {group}, component {axis + 1}"
+    name = f"force on group {group} along {{{axis}}}"
     return Check(name, exact, "N", tolerance, scale or abs(exact), ("groups", str(group), "force", axis))
 
 
@@ -113,7 +118,7 @@ def flux_density(at: Point, exact: ArrayLike, scale: float | None = None) -> tup
     vector = np.asarray(exact, dtype=float)
     size = scale or float(np.hypot(*vector))
     first, second = (
-        Check(f"B{axis + 1} at {_shown(at)}", float(vector[axis]), "T", FLUX_DENSITY, size, ("B", axis), at)
+        Check(f"B_{{{axis}}} at {_shown(at)}", float(vector[axis]), "T", FLUX_DENSITY, size, ("B", axis), at)
         for axis in (0, 1)
     )
     return first, second
