@@ -34,13 +34,15 @@ def probe(solution: Solution, field: RecoveredField, locator: Locator, points: F
     Raises SpecError for a point outside the mesh.
     """
     mesh = solution.problem.mesh
-    elements, places = locator.find(points)
+    elements, places = locator.find(points, reach=1e-3)
     outside = np.flatnonzero(elements < 0)
     if outside.size:
         x, y = points[outside[0]]
         raise SpecError(f"A point must lie inside the model; ({x:g}, {y:g}) m does not.")
     potential = np.einsum("kn,kn->k", shape(places), solution.psi[mesh.elements[elements]], optimize=True)
     b = field.at(elements, places)
+    if mesh.chart == "axisymmetric":
+        b[points[:, 0] == 0, 1] = 0.0  # row 1 of the frame is the radial one
     h = np.empty_like(b)
     region = mesh.region[elements]
     for index in np.unique(region):

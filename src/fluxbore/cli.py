@@ -15,8 +15,8 @@ from io import TextIOWrapper
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
-from fluxbore import __version__
-from fluxbore.design.errors import FluxboreError, SpecError, one_line, shown
+from fluxbore import __version__, solve_options
+from fluxbore.design.errors import FluxboreError, one_line, shown
 
 if TYPE_CHECKING:
     from fluxbore.design.spec import Spec
@@ -35,7 +35,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         if isinstance(stream, TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
     try:
-        options = _parser().parse_args(arguments)
+        options = _parser().parse_args(solve_options.joined(arguments))
         options.arguments = arguments
         command: Callable[[argparse.Namespace], int] = options.command
         status = command(options)
@@ -118,6 +118,8 @@ def _parser() -> argparse.ArgumentParser:
     report.add_argument("--force", action="store_true", help="replace the file where it exists")
     report.add_argument("--json", action="store_true", help="print JSON")
 
+    solve_options.add_to(add("solve", _solve, "solve a FEMM magnetics file (.fem)"))
+
     design = _with_run(add("design", _design, "sweeps, search, STEP files and report in one"), folder_needed=True)
     design.add_argument("--no-picture", action="store_true", help="do without the rendered picture")
     return parser
@@ -169,13 +171,7 @@ def _load(options: argparse.Namespace) -> Spec:
     from fluxbore.actuators import actuator_of
     from fluxbore.design.spec import load
 
-    overrides = {}
-    for item in options.set:
-        key, equals, value = item.partition("=")
-        if not equals or not key.strip():
-            raise SpecError(f'--set must be KEY=VALUE, such as actuator.mover.ring_width="2 mm"; got {shown(item)}.')
-        overrides[key.strip()] = value.strip()
-    spec = load(options.spec, overrides)
+    spec = load(options.spec, solve_options.assignments(options.set, 'actuator.mover.ring_width="2 mm"'))
     # Parts that overlap in the drawing alone are wrong input too; a study's designs are judged one by one instead.
     actuator_of(spec).assembly(spec)
     return spec
@@ -294,6 +290,21 @@ def _report(options: argparse.Namespace) -> int:
     else:
         print("\n".join([*found.reasons, *(str(path) for path in found.files)]))
     return DONE if found.ok else NOT_VALID
+
+
+def _solve(options: argparse.Namespace) -> int:
+    from fluxbore.solution_messages import solution_plain, solution_text
+    from fluxbore.solving import solve
+
+    question = solve_options.question(options)
+    solution = solve(options.model, **question)
+    show = solution_plain if options.json else solution_text
+    answer = show(solution, question["groups"], question["points"])
+    if isinstance(answer, str):
+        print(answer)
+    else:
+        _print_json(answer)
+    return DONE if solution.solution.convergence.converged else NOT_VALID
 
 
 def _design(options: argparse.Namespace) -> int:

@@ -1,0 +1,160 @@
+"""What `fluxbore solve` says of a solution: as a JSON object and as text."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import pi
+from typing import Any
+
+import numpy as np
+
+from fluxbore.fem.femm_solution import FemmSolution, GroupForce
+
+
+def solution_plain(
+    solution: FemmSolution, groups: Sequence[int] = (), points: Sequence[tuple[float, float]] = ()
+) -> dict[str, Any]:
+    """The JSON object of a solution: SI units, points in the file's unit."""
+    model, convergence = solution.model, solution.solution.convergence
+    mesh = solution.solution.problem.mesh
+    energy, coenergy = solution.energies
+    linkages = solution.linkages
+    forces = {group: solution.force(group) for group in groups}
+    return {
+        "problem": {
+            "type": "axisymmetric" if model.axisymmetric else "planar",
+            "file": model.path,
+            "unit": model.unit,
+            "depth": None if model.axisymmetric else model.depth * model.metres,
+        },
+        "mesh": {
+            "nodes": int(mesh.nodes.shape[0]),
+            "elements": int(mesh.region.size),
+            "unknowns": mesh.topology.unknowns,
+        },
+        "convergence": {
+            "status": convergence.status,
+            "iterations": convergence.iterations,
+            "residual": convergence.residual,
+        },
+        "accuracy": accuracy_plain(solution),
+        "energy": energy,
+        "coenergy": coenergy,
+        "circuits": {
+            item.name: {"current": item.current, "flux_linkage": float(linkage)}
+            for item, linkage in zip(model.circuits, linkages, strict=True)
+        },
+        "inductances": inductances_plain(solution),
+        "groups": {str(group): _force_plain(solution, force) for group, force in forces.items()},
+        "points": _points_plain(solution, points),
+        "warnings": list(warnings(solution, forces)),
+    }
+
+
+def accuracy_plain(solution: FemmSolution) -> dict[str, Any]:
+    """What was asked for, what is estimated, and each mesh on the way."""
+    levels = solution.adapted.levels
+    last = levels[-1]
+    return {
+        "asked": solution.accuracy,
+        "estimate": last.worst if last.estimates else None,
+        "reached": solution.adapted.reached,
+        "figures": {
+            estimate.name: {"error": estimate.error, "relative": estimate.relative} for estimate in last.estimates
+        },
+        "levels": [
+            {
+                "elements": level.elements,
+                "unknowns": level.unknowns,
+                "iterations": level.iterations,
+                "figures": {estimate.name: estimate.value for estimate in level.estimates if estimate.name != "points"},
+            }
+            for level in levels
+        ],
+    }
+
+
+def inductances_plain(solution: FemmSolution) -> dict[str, dict[str, float]]:
+    """Incremental inductances, by the names of both circuits (H)."""
+    names = [item.name for item in solution.model.circuits]
+    if not names or not solution.solution.convergence.converged:
+        return {}
+    table = solution.inductances()
+    return {name: {other: float(table[i, j]) for j, other in enumerate(names)} for i, name in enumerate(names)}
+
+
+def warnings(solution: FemmSolution, forces: dict[int, GroupForce]) -> list[str]:
+    """What a reader of the figures should know, each in a sentence."""
+    found = []
+    if not solution.solution.convergence.converged:
+        found.append(solution.solution.convergence.sentence())
+    elif not solution.adapted.reached:
+        worst = solution.adapted.levels[-1].worst
+        found.append(
+            f"The accuracy of {solution.accuracy * 100:g} % was not reached with "
+            f"{solution.solution.problem.mesh.topology.unknowns} unknowns; the estimate is {worst * 100:.2g} %."
+        )
+    for group, force in forces.items():
+        if force.touches:
+            label = solution.model.labels[force.touches[0]]
+            found.append(
+                f"Group {group} touches other magnetic material, the block at ({label.x:g}, {label.y:g}); the force "
+                "between bodies in contact is not defined."
+            )
+    return found
+
+
+def solution_text(
+    solution: FemmSolution, groups: Sequence[int] = (), points: Sequence[tuple[float, float]] = ()
+) -> str:
+    """A few lines for a person."""
+    plain = solution_plain(solution, groups, points)
+    mesh, accuracy, convergence = plain["mesh"], plain["accuracy"], plain["convergence"]
+    estimate = accuracy["estimate"]
+    lines = [
+        f"{plain['problem']['file'] or 'model'}: {plain['problem']['type']}, {mesh['elements']} quadratic triangles, "
+        f"{mesh['unknowns']} unknowns",
+        f"Newton {convergence['status']} in {convergence['iterations']} steps on the last of "
+        f"{len(accuracy['levels'])} meshes" + ("" if estimate is None else f"; estimated error {estimate * 100:.2g} %"),
+        f"energy {plain['energy']:.6g} J, coenergy {plain['coenergy']:.6g} J",
+    ]
+    for name, circuit in plain["circuits"].items():
+        lines.append(f"circuit {name}: {circuit['current']:g} A, flux linkage {circuit['flux_linkage']:.6g} Wb")
+    for number, group in plain["groups"].items():
+        first, second = group["force"]
+        words = f"axial {second:.6g} N" if solution.model.axisymmetric else f"x {first:.6g} N, y {second:.6g} N"
+        turning = "" if solution.model.axisymmetric else f", torque {group['torque']:.6g} N m"
+        lines.append(f"group {number}: {words}{turning}, two routes differ by {group['force_error']:.2g} N")
+    names = ("B_r", "B_z") if solution.model.axisymmetric else ("B_x", "B_y")
+    for point in plain["points"]:
+        x, y = point["at"]
+        lines.append(
+            f"({x:g}, {y:g}): {names[0]} {point['B'][0]:.6g} T, {names[1]} {point['B'][1]:.6g} T, "
+            f"|B| {float(np.hypot(*point['B'])):.6g} T, A {point['A']:.6g}"
+        )
+    return "\n".join([*lines, *(f"warning: {sentence}" for sentence in plain["warnings"])])
+
+
+def _force_plain(solution: FemmSolution, force: GroupForce) -> dict[str, Any]:
+    return {
+        "force": list(force.by_stress.force),
+        "torque": force.by_stress.torque,
+        "force_error": force.error,
+        "force_by_virtual_work": list(force.by_layer.force),
+        "torque_by_virtual_work": force.by_layer.torque,
+        "force_by_lorentz": None if force.lorentz is None else list(force.lorentz.force),
+        "torque_by_lorentz": None if force.lorentz is None else force.lorentz.torque,
+    }
+
+
+def _points_plain(solution: FemmSolution, points: Sequence[tuple[float, float]]) -> list[dict[str, Any]]:
+    if not points:
+        return []
+    found = solution.probe(np.array(points, dtype=float))
+    rows = []
+    for at, a, b, h in zip(points, found.potential, found.flux_density, found.field_strength, strict=True):
+        row = {"at": list(at), "A": float(a), "B": b.tolist(), "H": h.tolist()}
+        if solution.model.axisymmetric:
+            row["flux"] = 2 * pi * float(a)
+        rows.append(row)
+    return rows

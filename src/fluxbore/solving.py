@@ -1,0 +1,49 @@
+"""The Python interface to FEMM files: solve a model as it is, or with other values."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from math import isfinite
+from pathlib import Path
+
+from fluxbore.design.errors import SpecError
+from fluxbore.fem.femm_model import FemmModel
+from fluxbore.fem.femm_reader import read_model
+from fluxbore.fem.femm_solution import MAX_UNKNOWNS, FemmSolution, solve_model
+
+TIGHTEST_ACCURACY, LOOSEST_ACCURACY = 1e-6, 0.5
+
+
+def solve(
+    model: FemmModel | Path | str,
+    *,
+    groups: Sequence[int] = (),
+    points: Sequence[tuple[float, float]] = (),
+    accuracy: float | None = None,
+    changes: Mapping[str, str] | None = None,
+    open_boundary: bool = False,
+    max_unknowns: int = MAX_UNKNOWNS,
+) -> FemmSolution:
+    """Solve a FEMM magnetics file, refining until the estimated errors of its figures hold.
+
+    model : a `.fem` file or what `read_model` made of it. groups : whose forces are asked for. points : in the file's
+    unit, where the field is. accuracy : relative, 0.001 without it. changes : other values, as `--set` takes them.
+    open_boundary : put all of space around the model in place of its outer boundary.
+
+    Raises FluxboreError with one sentence for whatever is wrong with the file or the question.
+    """
+    if accuracy is not None and not (isfinite(accuracy) and TIGHTEST_ACCURACY <= accuracy <= LOOSEST_ACCURACY):
+        raise SpecError(
+            f"accuracy must be from {TIGHTEST_ACCURACY * 100:g} % to {LOOSEST_ACCURACY * 100:g} %; "
+            f"got {accuracy * 100:g} %."
+        )
+    read = model if isinstance(model, FemmModel) else read_model(model)
+    if changes:
+        from fluxbore.fem.femm_edit import edit
+
+        read = edit(read, changes)
+    if open_boundary:
+        from fluxbore.fem.femm_open import with_open_boundary
+
+        read = with_open_boundary(read)
+    return solve_model(read, groups, points, accuracy, max_unknowns)
