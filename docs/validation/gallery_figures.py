@@ -16,6 +16,7 @@ from fluxbore.fem.field import FluxMap
 from fluxbore.fem.mesh import Floats
 
 pyplot.switch_backend("Agg")
+rcParams["contour.negative_linestyle"] = "solid"
 rcParams["svg.hashsalt"] = "fluxbore"  # the same picture is the same file
 
 CONDITION, PERIODIC, LINE = "#b3261e", "#1f5fa8", "#222222"

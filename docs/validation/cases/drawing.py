@@ -153,7 +153,7 @@ class Drawing:
             stops = on[np.argsort(t[on])]
             for start, end in zip(stops[:-1].tolist(), stops[1:].tolist(), strict=True):
                 key = frozenset((start, end))
-                if key not in found or found[key].boundary is None:
+                if key not in found or segment.boundary is not None:
                     found[key] = replace(segment, start=start, end=end)
         return tuple(found.values())
 

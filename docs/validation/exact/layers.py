@@ -40,7 +40,7 @@ class Steel:
         """∫ H dB = B H − coenergy (J/m³)."""
         return self.flux_density(h) * h - self.coenergy(h)
 
-    def table(self, rows: int = 60, last: float = 3e5) -> tuple[tuple[float, float], ...]:
+    def table(self, rows: int = 120, last: float = 3e5) -> tuple[tuple[float, float], ...]:
         """(B, H) rows for a file: H from 0, then in geometric steps."""
         fields = [0.0, *np.geomspace(last * 1e-5, last, rows - 1)]
         return tuple((self.flux_density(float(h)), float(h)) for h in fields)
