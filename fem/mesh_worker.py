@@ -33,7 +33,8 @@ MEMORY_LIMIT = 1_500_000_000
 class Job:
     """points : (n, 2) m. ends : (k, 2). sides : (k, 2) domains from 1 left and right, 0 outside.
 
-    copy : (k,) the side whose nodes this one repeats, −1 for none. sizes : (domains,) greatest side (m). seconds : limit.
+    copy : (k,) the side whose nodes this one repeats, −1 for none. sizes : (domains,) greatest side (m). seconds : time
+    limit.
     """
 
     points: Floats
@@ -41,7 +42,7 @@ class Job:
     sides: Ints
     copy: Ints
     sizes: Floats
-    grading: float
+    gradings: tuple[float, ...]
     seconds: float
 
 
@@ -133,7 +134,7 @@ def _forget() -> None:
         for pipe in (worker.stdin, worker.stdout):
             if pipe is not None:
                 with contextlib.suppress(OSError):
-                    os.close(pipe.fileno())
+                    getattr(pipe, "raw", pipe).close()  # not through the buffer: what it holds is the parent's to send
         worker.returncode = 0
         _inherited.append(worker)
 
@@ -161,7 +162,39 @@ def _receive(pipe: BinaryIO | Any) -> Any:
     return pickle.loads(data)
 
 
-def mesh(job: Job) -> Answer:
+SLENDER = 20.0
+"""Degrees: a mesh with a smaller angle is made again with the next grading."""
+PATIENCE = 60_000
+"""Triangles of a mesh that is not made again for its angles."""
+
+
+def best(job: Job) -> Answer:
+    """The first mesh without slender triangles, or the one with the largest smallest angle."""
+    answers: list[tuple[float, Answer]] = []
+    trouble: Exception | None = None
+    for grading in job.gradings:
+        try:
+            answer = mesh(job, grading)
+        except Exception as error:
+            trouble = error
+            continue
+        answers.append((smallest_angle(answer), answer))
+        if answers[-1][0] > SLENDER or len(answer.triangles) > PATIENCE:
+            break
+    if not answers and trouble is not None:
+        raise trouble
+    return max(answers, key=lambda rated: rated[0])[1]
+
+
+def smallest_angle(answer: Answer) -> float:
+    """Degrees, 0 without triangles."""
+    p = answer.points[answer.triangles]
+    u, v = np.roll(p, -1, axis=1) - p, np.roll(p, 1, axis=1) - p
+    angle = np.arctan2(np.abs(u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0]), (u * v).sum(axis=2))
+    return float(np.degrees(angle.min(initial=np.pi))) if len(p) else 0.0
+
+
+def mesh(job: Job, grading: float) -> Answer:
     """By netgen, in this process."""
     from netgen.geom2d import SplineGeometry
 
@@ -173,9 +206,7 @@ def mesh(job: Job) -> Answer:
     for domain, size in enumerate(job.sizes.tolist(), 1):
         geometry.SetDomainMaxH(domain, size)
     # Its Delaunay variant does not return on some long boundaries: the advancing front is meant.
-    made = geometry.GenerateMesh(
-        maxh=float(job.sizes.max()), grading=job.grading, delaunay2d=False, quad_dominated=False
-    )
+    made = geometry.GenerateMesh(maxh=float(job.sizes.max()), grading=grading, delaunay2d=False, quad_dominated=False)
     elements, segments = made.Elements2D().NumPy(), made.Elements1D().NumPy()
     return Answer(
         np.array(made.Coordinates(), dtype=float)[:, :2],
@@ -211,7 +242,7 @@ def main() -> None:
         if hasattr(signal, "alarm"):
             signal.alarm(int(job.seconds) + 5)  # should the parent be gone, nobody else would stop it
         try:
-            answer = mesh(job)
+            answer = best(job)
         except MemoryError:
             answer = Answer(np.zeros((0, 2)), nothing, nothing[:, 0], nothing[:, :2], "it needs more than 1.5 GB")
         except Exception as error:

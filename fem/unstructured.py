@@ -25,8 +25,8 @@ AUTOMATIC = 0.1
 """Greatest side in a face without a size, as a share of the diagonal of its bounding box."""
 SPEED = 10_000
 """Triangles that netgen makes in a second at the least; the time limit grows with them."""
-GRADING = 0.3
-"""Growth of the sides with the distance from shorter ones."""
+GRADINGS = (0.3, 0.2, 0.25, 0.4)
+"""Growth of the sides with the distance from shorter ones, and what to try next if that gives slender triangles."""
 
 
 def triangulate(outline: Outline, limit: int = 400_000) -> Triangulation:
@@ -44,6 +44,8 @@ def triangulate(outline: Outline, limit: int = 400_000) -> Triangulation:
     sizes = _sizes(drawing, found, limit)
     edges = drawing.divide(edges, _parts(drawing, edges, found, sizes, limit))
     edges = drawing.resolved(edges, spots, limit)
+    # Curves that leave a point close together are told apart by short sides only.
+    edges = drawing.untangled(edges, spots, limit)
     found = faces(drawing, edges, spots)
     sizes = _sizes(drawing, found, limit)
     kept = np.asarray((found.sides >= 0).any(axis=1))
@@ -135,7 +137,7 @@ def _job(
         np.vstack((sides, stub_sides + 1)),
         np.append(copy, np.full(len(stubs), -1)),
         sizes,
-        GRADING,
+        GRADINGS,
         TIME_LIMIT + seconds,
     )
 
