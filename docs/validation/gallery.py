@@ -50,7 +50,8 @@ def _forces(case: Case, solved: Run) -> list[str]:
     forces = {group: solved.result["groups"][str(group)] for group in case.groups}
     for group, found in forces.items():
         a, b = np.array(found["force"]), np.array(found["force_by_layer"])
-        size = max(float(np.hypot(*a)), 1e-300)
+        scales = [check.scale for check in case.checks if check.path[:3] == ("groups", str(group), "force")]
+        size = max(float(np.hypot(*a)), *scales, 1e-300)  # a force of zero is held against what would be one
         lines.append(f"| {group} | {_vector(a)} | {_vector(b)} | {float(np.hypot(*(a - b))) / size:.3%} |")
     lines.append("")
     for one, other in case.pairs:
