@@ -164,7 +164,7 @@ def _receive(pipe: BinaryIO | Any) -> Any:
 
 SLENDER = 20.0
 """Degrees: a mesh with a smaller angle is made again with the next grading."""
-PATIENCE = 60_000
+PATIENCE = 20_000
 """Triangles of a mesh that is not made again for its angles."""
 
 
