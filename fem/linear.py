@@ -19,10 +19,10 @@ Ints = NDArray[np.int_]
 Method = Literal["auto", "banded", "superlu", "multigrid"]
 
 LARGE = 100_000
-"""Unknowns from which multigrid is the default: there it takes half of SuperLU's time, and a fifth of its memory."""
+"""Unknowns from which multigrid is the default: at 160,000 one solution takes 2 s, by SuperLU some 4 s."""
 
 LARGEST_FACTOR = 400_000
-"""Unknowns up to which SuperLU steps in where multigrid fails; beyond, its factor would take gigabytes."""
+"""Unknowns up to which SuperLU steps in where multigrid fails; there a factor takes 14 s, by the law in `choose`."""
 
 
 class SingularMatrixError(ArithmeticError):

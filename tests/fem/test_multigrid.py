@@ -84,7 +84,7 @@ def test_iterations_hardly_depend_on_the_size(block: Callable[..., MappedMesh]) 
 
 
 def test_stretched_cells(mid_stroke: TubularSolution) -> None:
-    """Catches aggregation across weak couplings: the motor's cells are up to a hundred times as long as wide."""
+    """Catches aggregation across weak couplings: the motor's cells are far from square."""
     system = mid_stroke.solution.system
     values = system.tangent_values(mid_stroke.solution.psi[system.inner])
     hierarchy = Multigrid(system.pattern, values)
