@@ -157,7 +157,7 @@ def lines(rows: list[Row]) -> list[str]:
     """The table and the exponents, as Markdown."""
     limit = limit_of_coenergy(rows)
     out = [
-        "| unknowns | method | mesh (s) | assembly (s) | solve (s) | Newton steps | peak memory (GB) | coenergy error |",
+        "| unknowns | method | mesh (s) | assembly (s) | solve (s) | Newton steps | memory (GB) | coenergy error |",
         "|---:|---|---:|---:|---:|---:|---:|---:|",
     ]
     for row in rows:
