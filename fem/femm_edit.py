@@ -16,17 +16,15 @@ equals sign must be quoted. Changes apply in their order: displacement after rot
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from decimal import ROUND_FLOOR, Decimal
 from math import degrees
 from typing import Protocol, TypeVar
 
 from fluxbore.design.errors import SpecError, one_line, shown
 from fluxbore.design.units import parse_quantity
-from fluxbore.fem.femm_model import BlockLabel, BlockProperty, CircuitProperty, FemmModel, PointProperty
-from fluxbore.fem.femm_move import Motion, moved
+from fluxbore.fem.femm_model import BlockProperty, CircuitProperty, FemmModel, PointProperty
+from fluxbore.fem.femm_move import Motion, members, moved
 from fluxbore.fem.femm_value import (
     CONDUCTIVITY,
     CURRENT,
@@ -63,60 +61,6 @@ BOUNDARY = {"a0": PLAIN, "a1": PLAIN, "a2": PLAIN, "phase": PLAIN, "c0": PLAIN, 
 KIND_OF_BOUNDARY = {"a0": "prescribed", "a1": "prescribed", "a2": "prescribed", "phase": "prescribed"}
 """What a boundary must be for its numbers to mean something; c0 and c1 are a mixed one's."""
 
-MOST_VALUES = 10_000
-"""Of a sweep."""
-
-
-def setting(text: str) -> tuple[str, str]:
-    """Key and value of KEY=VALUE. Raises SpecError where there is none of either."""
-    quoted = False
-    for at, sign in enumerate(text):
-        quoted ^= sign == '"'
-        if sign == "=" and not quoted:
-            key, value = text[:at].strip(), text[at + 1 :].strip()
-            if key and value:
-                return key, value
-            break
-    raise SpecError(f"A change must be KEY=VALUE, such as circuit.coil.current=2; got {shown(text)}.")
-
-
-def sweep_values(text: str) -> tuple[str, tuple[str, ...]]:
-    """The key and the values of KEY=FIRST:LAST:STEP or KEY=VALUE,VALUE,...; a unit after LAST or STEP is every value's.
-
-    Decimal arithmetic: 0:1:0.1 has 0.3, not its neighbour. Raises SpecError, also for more than `MOST_VALUES`.
-    """
-    key, values = setting(text)
-    if ":" not in values:
-        return key, _counted(key, [part.strip() for part in values.split(",")])
-    parts = [part.strip() for part in values.split(":")]
-    last, unit = _with_unit(parts[-1])
-    numbers = [bare_number(part) for part in (*parts[:-1], last)]
-    known = [Decimal(repr(number)) for number in numbers if number is not None]
-    if len(known) != 3:
-        raise SpecError(f"{spelt(key)} must be swept by FIRST:LAST:STEP, such as -2:2:0.5; got {shown(values)}.")
-    first, end, step = known
-    if step == 0 or (end - first) * step < 0:
-        raise SpecError(f"{spelt(key)} must be swept by a step that leads from first to last; got {shown(values)}.")
-    count = ((end - first) / step).to_integral_value(ROUND_FLOOR) + 1
-    if count > MOST_VALUES:
-        raise SpecError(f"{spelt(key)} must take at most {MOST_VALUES} values; got {count:.4g}.")
-    tail = f" {unit}" if unit else ""
-    return key, tuple(f"{float(first + k * step):.15g}{tail}" for k in range(int(count)))
-
-
-def _counted(key: str, values: list[str]) -> tuple[str, ...]:
-    if len(values) > MOST_VALUES:
-        raise SpecError(f"{spelt(key)} must take at most {MOST_VALUES} values; got {len(values)}.")
-    if not all(values):
-        raise SpecError(f"{spelt(key)} must have a value between commas; got none.")
-    return tuple(values)
-
-
-def _with_unit(text: str) -> tuple[str, str]:
-    """A number and the unit behind it, each perhaps empty."""
-    match = re.fullmatch(r"([-+0-9.]*(?:[eE][-+]?[0-9]+)?)\s*(.*)", text, re.DOTALL)
-    return (match[1], match[2]) if match else ("", text)
-
 
 def edit(model: FemmModel, changes: Mapping[str, str]) -> FemmModel:
     """The model with every change made, in their order.
@@ -124,12 +68,13 @@ def edit(model: FemmModel, changes: Mapping[str, str]) -> FemmModel:
     Raises SpecError, one sentence that names the key and what is possible; MeshError where a group of labels without
     lines of its own is moved in a drawing without faces.
     """
+    drawn = model  # what belongs to a group is told from the file: half of a motion may lead through a wall
     for key, text in changes.items():
-        model = _changed(model, key, text)
+        model = _changed(model, key, text, drawn)
     return model
 
 
-def _changed(model: FemmModel, key: str, text: str) -> FemmModel:
+def _changed(model: FemmModel, key: str, text: str, drawn: FemmModel) -> FemmModel:
     kind, _, rest = key.partition(".")
     known = key in ("depth", *KINDS) or kind in KINDS
     if not known:
@@ -138,7 +83,9 @@ def _changed(model: FemmModel, key: str, text: str) -> FemmModel:
         if model.axisymmetric or rest:
             raise SpecError(f"{spelt(key)} must be the depth of a planar file; this one has none.")
         return replace(model, depth=_length(model, key, text, 1e-12))
-    return KINDS[kind](model, key, rest, text)
+    if kind == "group":
+        return _group(model, key, rest, text, drawn)
+    return PROPERTIES[kind](model, key, rest, text)
 
 
 def _circuit(model: FemmModel, key: str, rest: str, text: str) -> FemmModel:
@@ -201,7 +148,7 @@ def _boundary(model: FemmModel, key: str, rest: str, text: str) -> FemmModel:
     return replace(model, boundaries=tuple(items))
 
 
-def _group(model: FemmModel, key: str, rest: str, text: str) -> FemmModel:
+def _group(model: FemmModel, key: str, rest: str, text: str, drawn: FemmModel) -> FemmModel:
     name, _, what = rest.partition(".")
     known = sorted(groups(model))
     if name.strip().removeprefix("-").isdecimal() and int(name) in known:
@@ -219,29 +166,22 @@ def _group(model: FemmModel, key: str, rest: str, text: str) -> FemmModel:
             motion = Motion(x=_length(model, key, text))
         else:
             motion = Motion(y=_length(model, key, text))
-        return moved(model, group, motion)
-    if what not in ("magnetisation", "turns"):
+        return moved(model, group, members(drawn, group), motion)
+    if what == "magnetisation":
+        direction = _direction(key, text)
+        labels = [replace(b, magnetisation=direction) if b.group == group else b for b in model.labels]
+        missing = "a block label"
+    elif what == "turns":
+        turns = Value(least=-1e9, most=1e9).read(spelt(key), text)
+        labels = [replace(b, turns=turns) if b.group == group and b.circuit is not None else b for b in model.labels]
+        missing = "a block label with a circuit"
+    else:
         chart = "an axisymmetric" if model.axisymmetric else "a planar"
         can = ", ".join(("magnetisation", "turns", *motions))
         raise SpecError(f"{spelt(key)} must end in one of {can}, in {chart} file; got {shown(what)}.")
-    new: Callable[[BlockLabel], BlockLabel]
-    if what == "magnetisation":
-        direction = _direction(key, text)
-        members = [k for k, label in enumerate(model.labels) if label.group == group]
-
-        def new(label: BlockLabel) -> BlockLabel:
-            return replace(label, magnetisation=direction)
-    else:
-        turns = Value(least=-1e9, most=1e9).read(spelt(key), text)
-        members = [k for k, label in enumerate(model.labels) if label.group == group and label.circuit is not None]
-
-        def new(label: BlockLabel) -> BlockLabel:
-            return replace(label, turns=turns)
-
-    if not members:
-        missing = "a block label" if what == "magnetisation" else "a block label with a circuit"
+    if not any(b.group == group and (what != "turns" or b.circuit is not None) for b in model.labels):
         raise SpecError(f"{spelt(key)} must name a group with {missing}; group {group} has none.")
-    return replace(model, labels=tuple(new(label) if k in members else label for k, label in enumerate(model.labels)))
+    return replace(model, labels=tuple(labels))
 
 
 def groups(model: FemmModel) -> set[int]:
@@ -250,13 +190,13 @@ def groups(model: FemmModel) -> set[int]:
     return {item.group for kind in kinds for item in kind}
 
 
-KINDS: dict[str, Callable[[FemmModel, str, str, str], FemmModel]] = {
+PROPERTIES: dict[str, Callable[[FemmModel, str, str, str], FemmModel]] = {
     "circuit": _circuit,
-    "group": _group,
     "material": _material,
     "boundary": _boundary,
     "point": _point,
 }
+KINDS = ("circuit", "group", "material", "boundary", "point")
 
 
 def _chosen(

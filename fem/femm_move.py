@@ -62,8 +62,8 @@ class Motion:
         return quarter or (cos(radians(self.angle)), sin(radians(self.angle)))
 
 
-def moved(model: FemmModel, group: int, motion: Motion) -> FemmModel:
-    """The model with a group elsewhere.
+def members(model: FemmModel, group: int) -> frozenset[int]:
+    """Numbers of the nodes that move with a group.
 
     As in FEMM, what carries the group's number moves. Where only labels do, as in many files, the lines and arcs around
     the labels' faces move with them: those that bound these faces along all of their length, by their ends.
@@ -77,6 +77,11 @@ def moved(model: FemmModel, group: int, motion: Motion) -> FemmModel:
         numbers = _around_labels(model, group)
     if not numbers and not any(hole.group == group for hole in model.holes):
         raise SpecError(f"Group {group} must have nodes, lines, arcs or closed faces to be moved; it has none.")
+    return frozenset(numbers)
+
+
+def moved(model: FemmModel, group: int, numbers: frozenset[int], motion: Motion) -> FemmModel:
+    """The model with a group elsewhere. numbers : its nodes, by `members` of the model before any motion."""
 
     def node(number: int, item: Node) -> Node:
         if number not in numbers:
