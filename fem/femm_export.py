@@ -190,7 +190,7 @@ def _distinct(blocks: list[BlockProperty]) -> tuple[BlockProperty, ...]:
 
 
 def _size(section: CrossSection, grid: Grid, face: Face) -> float | None:
-    """Distance of nodes in the machine's own mesh (mm): along r, and on the mover along z too. Automatic in air."""
+    """Side of the elements of the machine's own mesh (mm): along r, and on the mover along z too. Automatic in air."""
     group = _group(section, face)
     if group == 0:
         return None
@@ -202,10 +202,10 @@ def _size(section: CrossSection, grid: Grid, face: Face) -> float | None:
 
 
 def _steps(points: Breakpoints, cells: Mapping[str, Subdivision], at: Floats) -> list[float]:
-    """Mean distance of nodes (m) in each of the intervals that hold these places."""
+    """Mean side (m) of the elements in each of the intervals that hold these places."""
     intervals = np.unique(np.searchsorted(points.values, at) - 1).tolist()
     return [
-        (points.values[k + 1] - points.values[k]) / cells[name].cells / 2
+        (points.values[k + 1] - points.values[k]) / cells[name].cells
         for k in intervals
         if (name := points.intervals[k]) in cells
     ]
