@@ -113,7 +113,7 @@ def _prescribed(
             fixed[mine] = True
             values[mine] = factor[mine] * rule.potential(space[mine])
     for point, potential in conditions.points.items():
-        node = triangulation.vertex[point]
+        node = quadratic.vertex[point]
         if node >= 0:
             fixed[node], values[node] = True, factor[node] * potential
     if outline.chart == "axisymmetric":

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -13,9 +13,10 @@ from fluxbore.fem.adapt import Adapted, Goal, solve_adaptively
 from fluxbore.fem.body_force import BodyForce, lorentz_force, stress_force
 from fluxbore.fem.conditions import conditioned_mesh
 from fluxbore.fem.energy import energies
+from fluxbore.fem.facing import facing
 from fluxbore.fem.femm_model import FemmModel
 from fluxbore.fem.femm_problem import Drawing, drawing, problem
-from fluxbore.fem.goals import EnergyGoal, ForceGoal, LinkageGoal
+from fluxbore.fem.goals import EnergyGoal, ForceGoal, LinkageGoal, PointGoal
 from fluxbore.fem.linkage import flux_linkages
 from fluxbore.fem.locate import Locator
 from fluxbore.fem.magnetostatics import Settings, Solution
@@ -30,6 +31,9 @@ from fluxbore.fem.weight import layer_weight, smooth_weight
 
 DEFAULT_ACCURACY = 1e-3
 """Of the estimated error of energy, linkages and forces, where none is asked for."""
+
+LOCAL_SLACK = 3.0
+"""The elements' own field at a point may be this much worse than the accuracy: the recovered one is given."""
 
 MAX_UNKNOWNS = 150_000
 """Refinement ends here, and says that the accuracy was not reached."""
@@ -141,19 +145,22 @@ def solve_model(
     """
     accuracy = DEFAULT_ACCURACY if accuracy is None else accuracy
     drawn = drawing(model)
+    drawn = replace(drawn, outline=facing(drawn.outline))
     for group in groups:
         regions_of(model, group)
+    places = np.array(points, dtype=float).reshape(-1, 2) * model.metres
     goals = goals_of(model, groups)
+    for number, (x, y) in enumerate(places.tolist()):
+        at = f"B at point {number + 1}"
+        goals += [PointGoal(at, (x, y)), PointGoal(f"{at}, across", (x, y), across=True)]
 
     def discretise(triangulation: Triangulation) -> Problem:
         quadratic = quadratic_nodes(triangulation, drawn.outline)
         conditioned = conditioned_mesh(triangulation, quadratic, drawn.outline, drawn.conditions)
-        return problem(model, conditioned, triangulation.vertex)
-
-    places = np.array(points, dtype=float).reshape(-1, 2) * model.metres
+        return problem(model, conditioned, quadratic.vertex)
 
     def watched(solution: Solution, field: RecoveredField) -> Floats:
-        return _local_error(solution, field, places)
+        return _local_error(solution, field, places) / LOCAL_SLACK
 
     adapted = solve_adaptively(
         discretise,
@@ -169,8 +176,12 @@ def solve_model(
 
 
 def goals_of(model: FemmModel, groups: Sequence[int]) -> list[Goal]:
-    """The energy, the linkages of circuits with coils, and the forces on groups."""
-    goals: list[Goal] = [EnergyGoal()]
+    """The energy, the linkages of circuits with coils, and the forces on groups.
+
+    A point current has no finite energy: only the other figures can be accurate then.
+    """
+    endless = any(n.prop is not None and model.points[n.prop].current != 0 for n in model.nodes)
+    goals: list[Goal] = [] if endless else [EnergyGoal()]
     for number, item in enumerate(model.circuits):
         if any(label.circuit == number for label in model.labels):
             goals.append(LinkageGoal(f"flux linkage of {item.name}", number))

@@ -4,17 +4,28 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
 from fluxbore.fem.adapt import Measure
 from fluxbore.fem.body_force import Component, stress_force, stress_gradient, stress_scale
 from fluxbore.fem.energy import energies
+from fluxbore.fem.locate import Locator
 from fluxbore.fem.magnetostatics import Solution
+from fluxbore.fem.mesh import Mesh
 from fluxbore.fem.weight import smooth_weight
 
 NEXT_TO_NOTHING = 0.02
 """A force or linkage below this share of what its parts add up to without their signs is held against that share."""
+
+
+FORCE_SHARE = 0.5
+"""Forces are held to half of the accuracy: the forces of a pair then add up to nothing within it."""
+
+FAINT = 1e-3
+"""A flux density below this share of the largest one is held against that share: a field that symmetry forbids is not
+chased down to nothing."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,6 +54,41 @@ class LinkageGoal:
 
 
 @dataclass(frozen=True, slots=True)
+class PointGoal:
+    """The flux density at a point, one component of it, as the mean over the elements that hold the point.
+
+    point : m. across : the component across the field instead of the one along it.
+    """
+
+    name: str
+    point: tuple[float, float]
+    across: bool = False
+
+    def measure(self, solution: Solution) -> Measure:
+        mesh = solution.problem.mesh
+        elements = np.array([element for element, _ in locator(mesh).find_all(np.array(self.point))], dtype=int)
+        if not elements.size:
+            return Measure(0.0, 0.0, np.zeros(mesh.nodes.shape[0]))
+        weight = solution.system.kernel.weight[elements]
+        weight = weight / weight.sum()
+        curl = solution.system.kernel.curl[elements]
+        mean = np.einsum("mq,mqkn,mn->k", weight, curl, solution.psi[mesh.elements[elements]], optimize=True)
+        size = float(np.hypot(*mean))
+        largest = float(np.sqrt(np.sum(solution.flux_density() ** 2, axis=-1).mean(axis=1).max(initial=0.0)))
+        along = mean / size if size > 0 else np.array([1.0, 0.0])
+        direction = np.array([-along[1], along[0]]) if self.across else along
+        share = np.einsum("mq,mqkn,k->mn", weight, curl, direction, optimize=True)
+        nodal = np.bincount(mesh.elements[elements].ravel(), share.ravel(), mesh.nodes.shape[0])
+        return Measure(float(mean @ direction), max(size, FAINT * largest), np.asarray(nodal, dtype=float))
+
+
+@lru_cache(maxsize=1)
+def locator(mesh: Mesh) -> Locator:
+    """The last mesh's: several goals ask it."""
+    return Locator(mesh)
+
+
+@dataclass(frozen=True, slots=True)
 class ForceGoal:
     """One component of the force or torque on some regions."""
 
@@ -55,6 +101,5 @@ class ForceGoal:
         found = stress_force(solution, weight)
         value = {"x": found.force[0], "y": found.force[1], "z": found.force[1], "torque": found.torque}[self.component]
         whole = stress_scale(solution, weight, self.component)
-        return Measure(
-            value, max(abs(value), NEXT_TO_NOTHING * whole), stress_gradient(solution, weight, self.component)
-        )
+        scale = FORCE_SHARE * max(abs(value), NEXT_TO_NOTHING * whole)
+        return Measure(value, scale, stress_gradient(solution, weight, self.component))

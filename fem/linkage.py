@@ -37,8 +37,8 @@ def circuits(mesh: Mesh, coils: Sequence[CoilWindow]) -> tuple[Circuit, ...]:
 
 
 def flux_linkages(solution: Solution) -> Floats:
-    """(k,) flux linkage (Wb) of each circuit of the solution's problem: 2π ∫ (turns/area) ψ dr dz."""
-    return np.array([2 * np.pi * circuit.density @ solution.psi for circuit in solution.problem.circuits])
+    """(k,) flux linkage (Wb) of each circuit: ∫ (turns/area) ψ dr dz, all the way round or for the depth."""
+    return np.array([solution.problem.extent * circuit.density @ solution.psi for circuit in solution.problem.circuits])
 
 
 def coil_density(mesh: Mesh, coil: CoilWindow) -> Floats:

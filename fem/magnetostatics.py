@@ -106,7 +106,7 @@ class System:
             if stack is not None:
                 self.iron_curl[part] *= in_sheets(stack)[:, None]
                 self.iron_weight[part] *= stack.fill
-        self.iron_sources, self.iron_targets = self.pattern.subset(self.iron_elements)
+        self.iron_gather = self.pattern.subset_assembler(self.iron_elements)
 
     def _magnet_load(self) -> Floats:
         """(n,)  ∫ H_c · B(v), with H_c in the kernel's frame."""
@@ -160,7 +160,7 @@ class System:
             rows = np.concatenate((self.iron_curl.reshape(m, 2 * q, six), along), axis=1)
             factor = np.concatenate((np.repeat(nu * self.iron_weight, 2, axis=1), 2 * slope * self.iron_weight), axis=1)
             matrices = rows.transpose(0, 2, 1) @ (rows * factor[..., None])
-            values += np.bincount(self.iron_targets, matrices.ravel()[self.iron_sources], values.size)
+            values += self.iron_gather.assemble(matrices)
         return values
 
 

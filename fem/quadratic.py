@@ -13,6 +13,7 @@ import numpy as np
 
 from fluxbore.fem.element import QUADRATURE_POINTS, shape_derivatives
 from fluxbore.fem.field import CORNERS_AND_MIDDLES
+from fluxbore.fem.linear import near_numbering
 from fluxbore.fem.mesh import Floats, Ints, in_chart
 from fluxbore.fem.outline import Outline
 from fluxbore.fem.triangulation import Triangulation
@@ -22,13 +23,15 @@ from fluxbore.fem.triangulation import Triangulation
 class QuadraticNodes:
     """The nodes of a triangulation's quadratic elements.
 
-    nodes : (n, 2) in the chart: first the triangulation's points, then the middles of edges. elements : (m, 6).
+    nodes : (n, 2) in the chart. elements : (m, 6).
     edges : (k, 3) start, end and middle node of each of the triangulation's edges on curves.
+    vertex : (p,) node of each of the outline's points, −1 where it touches no region.
     """
 
     nodes: Floats
     elements: Ints
     edges: Ints
+    vertex: Ints
 
 
 def quadratic_nodes(triangulation: Triangulation, outline: Outline) -> QuadraticNodes:
@@ -59,7 +62,14 @@ def quadratic_nodes(triangulation: Triangulation, outline: Outline) -> Quadratic
             break
         edges = np.unique(elements[inverted, 3:])
         nodes[edges] = plain[edges - count]
-    return QuadraticNodes(nodes, elements, np.column_stack((triangulation.edges, count + on_curve)))
+    edges = np.column_stack((triangulation.edges, count + on_curve))
+    # Neighbours near in number: a narrow band for thin domains, and fewer cache misses for all.
+    place = near_numbering(elements, nodes.shape[0])
+    numbered = np.empty_like(nodes)
+    numbered[place] = nodes
+    return QuadraticNodes(
+        numbered, place[elements], place[edges], np.where(triangulation.vertex < 0, -1, place[triangulation.vertex])
+    )
 
 
 def _level(ends: Floats) -> Floats:

@@ -88,6 +88,8 @@ def recover(mesh: Mesh, psi: Floats, curl: Floats | None = None) -> RecoveredFie
         _add(square, mine, np.einsum("mqs,mqt->mst", terms, terms, optimize=True))
         _add(right, mine, np.einsum("mqs,mqc->msc", terms, field, optimize=True))
         samples += np.bincount(mine, minlength=codes.size) * points.shape[1]
+    if mesh.chart == "axisymmetric":
+        _mirror(square, right, np.flatnonzero(origin[:, 0] == 0))
     few = np.flatnonzero(samples < _LEAST_SAMPLES)
     square[few, 3:], square[few, :, 3:] = 0.0, 0.0
     right[few, 3:] = 0.0
@@ -95,6 +97,13 @@ def recover(mesh: Mesh, psi: Floats, curl: Floats | None = None) -> RecoveredFie
     diagonal = np.einsum("ptt->pt", square)
     diagonal += 1e-9 * samples[:, None] + (diagonal == 0)
     return RecoveredField(mesh, patch, origin, size, np.linalg.solve(square, right))
+
+
+def _mirror(square: Floats, right: Floats, patches: Ints) -> None:
+    """Add to patches on the axis what lies beyond it: B_z the same, B_r turned round."""
+    odd = np.array([1.0, -1.0, 1.0, 1.0, -1.0, 1.0])
+    square[patches] += square[patches] * odd[:, None] * odd
+    right[patches] += right[patches] * odd[:, None] * np.array([1.0, -1.0])
 
 
 def _terms(local: Floats) -> Floats:

@@ -1,0 +1,42 @@
+"""Which end of a periodic curve meets which end of its partner."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from fluxbore.fem.edges import Drawing
+from fluxbore.fem.faces import faces
+from fluxbore.fem.outline import Outline
+from fluxbore.fem.outline_check import cleaned, pieces
+
+_LIMIT = 400_000
+"""Sides that telling close curves apart may make."""
+
+
+def facing(outline: Outline) -> Outline:
+    """The outline with its pairs turned as FEMM turns them, whatever way their curves were drawn.
+
+    Walked with the domain on the left, the first curve begins where the second one ends: the two sides of a sector or
+    of a pole pitch are the same up to a rotation or a shift. The rim of a Kelvin exterior becomes its mirror image,
+    which is the same to an empty exterior. Raises MeshError, as `triangulate` does.
+    """
+    if not outline.pairs:
+        return outline
+    bare = cleaned(replace(outline, pairs=()))
+    drawing = Drawing(bare, pieces(bare))
+    used = np.isin(np.arange(len(drawing.pieces.points)), drawing.pieces.ends)
+    spots = drawing.pieces.points[~used]
+    seeds = np.array([seed.position for seed in bare.seeds], dtype=float).reshape(-1, 2)
+    edges = drawing.untangled(drawing.edges(), np.vstack((spots, seeds)), _LIMIT)
+    found = faces(drawing, edges, spots)
+    inside = found.sides >= 0
+    # +1 for a side with the domain on its left only, −1 for one with it on its right only.
+    way = inside[:, 0].astype(int) - inside[:, 1].astype(int)
+    curve = drawing.pieces.curve[edges.piece]
+    turned = []
+    for pair in outline.pairs:
+        first, second = (np.sign(way[curve == number].sum()) for number in (pair.first, pair.second))
+        turned.append(replace(pair, reverse=bool(first == second)))
+    return replace(outline, pairs=tuple(turned))
