@@ -70,4 +70,4 @@ def field_strength(solution: Solution, region: int, b: Floats, points: Floats) -
         h -= to_frame(chart, material.coercivity(points))
     else:
         h -= to_frame(chart, np.array(material.coercivity))
-    return h
+    return np.asarray(h)
