@@ -8,7 +8,7 @@ B in Z's place, and a half. One back-substitution each, with the factor that New
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
@@ -20,11 +20,14 @@ from fluxbore.fem.magnetostatics import Settings, Solution, in_sheets, solve
 from fluxbore.fem.mesh import Floats, Ints, Mesh
 from fluxbore.fem.outline import Outline
 from fluxbore.fem.problem import Problem
-from fluxbore.fem.recovery import RecoveredField, recover
+from fluxbore.fem.recovery import Patches, RecoveredField
 from fluxbore.fem.triangulation import Triangulation
 
 MARKED_SHARE = 0.6
 """Of the estimated error, carried by the elements that are refined (Dörfler 1996)."""
+
+ROUGH = 1e-5
+"""Newton's tolerance on the meshes before the last: far below what their elements are off by."""
 
 CAUTION = 0.25
 """Of the sum of the elements' errors taken without regard to sign: errors that cancel by chance are not relied on."""
@@ -100,8 +103,8 @@ def solve_adaptively(
     accuracy: float,
     settings: Settings,
     watched: Callable[[Solution, RecoveredField], Floats] | None = None,
-    max_unknowns: int = 150_000,
-    max_levels: int = 30,
+    max_unknowns: int = 200_000,
+    max_levels: int = 25,
 ) -> Adapted:
     """Refine until every goal's estimated relative error is below ``accuracy``, or the unknowns run out.
 
@@ -110,25 +113,31 @@ def solve_adaptively(
     triangulation = prepare(triangulation)
     levels: list[Level] = []
     problem, start = discretise(triangulation), None
+    rough = replace(settings, tolerance=max(settings.tolerance, ROUGH))
     while True:
-        solution = solve(problem, settings, start)
+        solution = solve(problem, rough, start)
         mesh = solution.problem.mesh
-        field = recover(mesh, solution.psi, solution.system.kernel.curl)
+        patches = Patches(mesh)
+        field = patches.recover(solution.flux_density())
         if not solution.convergence.converged:
             levels.append(_level(solution, ()))
             return Adapted(solution, field, triangulation, tuple(levels), False)
-        indicators, estimates = _estimates(solution, field, goals, accuracy)
+        indicators, estimates = _estimates(solution, patches, field, goals, accuracy)
         if watched is not None:
             local = watched(solution, field)
             estimates = (*estimates, Estimate("points", 0.0, float(local.max()), float(local.max())))
             indicators = indicators + np.where(local > accuracy, local / accuracy, 0.0) ** 2
         levels.append(_level(solution, estimates))
-        if levels[-1].worst <= accuracy:
-            return Adapted(solution, field, triangulation, tuple(levels), True)
         marked = _marked(indicators)
+        reached = levels[-1].worst <= accuracy
         # Each marked triangle becomes four, and closure adds about as many again.
-        if len(levels) >= max_levels or mesh.topology.unknowns + 8 * int(marked.sum()) > max_unknowns:
-            return Adapted(solution, field, triangulation, tuple(levels), False)
+        full = len(levels) >= max_levels or mesh.topology.unknowns + 8 * int(marked.sum()) > max_unknowns
+        if reached or full:
+            final = solve(problem, settings, solution.psi)
+            iterations = solution.convergence.iterations + final.convergence.iterations
+            final = replace(final, convergence=replace(final.convergence, iterations=iterations))
+            field = patches.recover(final.flux_density())
+            return Adapted(final, field, triangulation, tuple(levels), reached and final.convergence.converged)
         finer = refine(triangulation, outline, marked)
         problem = discretise(finer.triangulation)
         start = _carried(solution, triangulation, finer.triangulation, finer.origin, problem.mesh)
@@ -160,7 +169,7 @@ def tangent_product(solution: Solution, first: Floats, second: Floats) -> Floats
 
 
 def _estimates(
-    solution: Solution, field: RecoveredField, goals: Sequence[Goal], accuracy: float
+    solution: Solution, patches: Patches, field: RecoveredField, goals: Sequence[Goal], accuracy: float
 ) -> tuple[Floats, tuple[Estimate, ...]]:
     """(m,) what each element adds to the errors that are too large, and the estimates of all goals."""
     mesh = solution.problem.mesh
@@ -177,9 +186,8 @@ def _estimates(
             factor = solution.tangent if factor is None else factor
             gather, spread = mesh.topology.gather, mesh.topology.spread
             adjoint = spread(factor.solve(gather(measure.gradient)))
-            dual = recover(mesh, adjoint, solution.system.kernel.curl).at_quadrature()
-            dual -= flux_density_squared(solution.system.kernel.curl, adjoint[mesh.elements])[0]
-            share = tangent_product(solution, error, dual)
+            dual, _ = flux_density_squared(solution.system.kernel.curl, adjoint[mesh.elements])
+            share = tangent_product(solution, error, patches.recover(dual).at_quadrature() - dual)
             total = max(abs(float(share.sum())), CAUTION * float(np.abs(share).sum()))
         relative = total / measure.scale if measure.scale > 0 else 0.0
         estimates.append(Estimate(goal.name, measure.value, total, relative))

@@ -14,9 +14,9 @@ from typing import Literal
 import numpy as np
 
 from fluxbore.fem.conductors import current_density
-from fluxbore.fem.element import QUADRATURE_POINTS, from_frame, positions, shape
+from fluxbore.fem.element import QUADRATURE_POINTS, from_frame, positions, shape, to_frame
 from fluxbore.fem.magnetostatics import Solution
-from fluxbore.fem.mesh import Floats, Ints
+from fluxbore.fem.mesh import Floats, Ints, Mesh
 from fluxbore.fem.reluctivity import VACUUM_RELUCTIVITY
 from fluxbore.fem.weight import Weight
 
@@ -48,22 +48,27 @@ def stress_force(solution: Solution, weight: Weight) -> BodyForce:
 def stress_gradient(solution: Solution, weight: Weight, component: Component) -> Floats:
     """(n,) ∂F/∂ψ of one component, at the solution.
 
-    The force is a quadratic function of ψ, and what is linear in it belongs to coils: central differences of the
-    integrand are exact.
+    With e the direction, constant or that of a rotation, δ[e·T·∇w] = (e (B·∇w) + ∇w (e·B) − B (e·∇w))·δB/μ0.
     """
-    column = {"x": 0, "y": 1, "z": 1, "torque": 2}[component]
-    mesh, shell = solution.problem.mesh, weight.shell
-    psi = solution.psi[mesh.elements[shell]]
-    step = float(np.abs(psi).max(initial=0.0)) or 1.0
-    gradient = np.empty(psi.shape)
-    for node in range(6):
-        up, down = psi.copy(), psi.copy()
-        up[:, node] += step
-        down[:, node] -= step
-        difference = _integrands(solution, weight, up) - _integrands(solution, weight, down)
-        gradient[:, node] = difference[:, column] / (2 * step)
-    nodal = np.bincount(mesh.elements[shell].ravel(), gradient.ravel(), mesh.nodes.shape[0])
-    return np.asarray(nodal * solution.problem.extent)
+    problem = solution.problem
+    mesh, shell = problem.mesh, weight.shell
+    curl, measure, points, field, slope = _in_shell(solution, weight, solution.psi[mesh.elements[shell]])
+    if component == "torque":
+        direction = np.stack((-points[..., 1], points[..., 0]), axis=-1)
+    else:
+        direction = np.broadcast_to([1.0, 0.0] if component == "x" else [0.0, 1.0], field.shape)
+
+    def dot(a: Floats, b: Floats) -> Floats:
+        return np.asarray(np.sum(a * b, axis=-1, keepdims=True))
+
+    change = direction * dot(field, slope) + slope * dot(direction, field) - field * dot(direction, slope)
+    change *= -VACUUM_RELUCTIVITY * measure[..., None]
+    turned = np.stack((direction[..., 1], -direction[..., 0]), axis=-1)
+    turned = -turned if mesh.chart == "axisymmetric" else turned
+    change -= (_value(weight, mesh) * _current(solution, shell, points) * measure)[..., None] * turned
+    share = np.einsum("mqkn,mqk->mn", curl, to_frame(mesh.chart, change), optimize=True)
+    nodal = np.bincount(mesh.elements[shell].ravel(), share.ravel(), mesh.nodes.shape[0])
+    return np.asarray(nodal * problem.extent)
 
 
 def stress_scale(solution: Solution, weight: Weight, component: Component) -> float:
@@ -85,40 +90,55 @@ def lorentz_force(solution: Solution, body: Collection[int]) -> BodyForce | None
     return BodyForce((float(total[0]), float(total[1])), float(total[2]))
 
 
-def _integrands(solution: Solution, weight: Weight, psi: Floats | None = None) -> Floats:
-    """(k, 3) each shell element's share of both force components and the torque, without the extent."""
-    problem = solution.problem
-    mesh, shell = problem.mesh, weight.shell
-    psi = solution.psi[mesh.elements[shell]] if psi is None else psi
+def _in_shell(solution: Solution, weight: Weight, psi: Floats) -> tuple[Floats, Floats, Floats, Floats, Floats]:
+    """At the shell's quadrature points: curl, measure, positions, B and ∇w (m, q, 2) in space."""
+    mesh, shell = solution.problem.mesh, weight.shell
     curl, measure = solution.system.kernel.curl[shell], solution.system.kernel.weight[shell]
     field = from_frame(mesh.chart, np.einsum("mqkn,mn->mqk", curl, psi, optimize=True))
-    nodal = weight.nodal[mesh.elements[shell]]
-    slope = np.einsum("mqkn,mn->mqk", curl, nodal, optimize=True)  # (∂w/∂s, ∂w/∂z /r) or (∂w/∂x, ∂w/∂y)
+    slope = np.einsum("mqkn,mn->mqk", curl, weight.nodal[mesh.elements[shell]], optimize=True)
     points = positions(mesh, shell)
-    if mesh.chart == "axisymmetric":
+    if mesh.chart == "axisymmetric":  # so far ∂w/∂s = ∂w/∂r /r and ∂w/∂z /r
         slope = slope * points[..., :1]
+    return curl, measure, points, field, slope
+
+
+def _value(weight: Weight, mesh: Mesh) -> Floats:
+    """(k, q) the weight at the shell's quadrature points."""
+    nodal = weight.nodal[mesh.elements[weight.shell]]
+    return np.asarray(np.einsum("qn,mn->mq", shape(QUADRATURE_POINTS), nodal, optimize=True))
+
+
+def _integrands(solution: Solution, weight: Weight) -> Floats:
+    """(k, 3) each shell element's share of both force components and the torque, without the extent."""
+    mesh, shell = solution.problem.mesh, weight.shell
+    psi = solution.psi[mesh.elements[shell]]
+    _, measure, points, field, slope = _in_shell(solution, weight, psi)
     pressure = np.sum(field**2, axis=-1, keepdims=True) / 2
     traction = VACUUM_RELUCTIVITY * (field * np.sum(field * slope, axis=-1, keepdims=True) - pressure * slope)
     # A rotation x × traction, and the weight's own part: T is symmetric, so that nothing else is left.
     turning = points[..., 0] * traction[..., 1] - points[..., 1] * traction[..., 0]
     total = -np.concatenate((traction, turning[..., None]), axis=-1) * measure[..., None]
-    value = np.einsum("qn,mn->mq", shape(QUADRATURE_POINTS), nodal, optimize=True)
-    total -= value[..., None] * _lorentz(solution, shell, psi)
+    total -= _value(weight, mesh)[..., None] * _lorentz(solution, shell, psi)
     return np.asarray(total.sum(axis=1))
+
+
+def _current(solution: Solution, elements: Ints, points: Floats) -> Floats:
+    """(k, q) J (A/m²) at points (k, q, 2) of elements."""
+    region = solution.problem.mesh.region[elements]
+    uniform, by_radius = (part[region] for part in current_density(solution.problem))
+    density = np.broadcast_to(uniform[:, None], points.shape[:2])
+    if np.any(by_radius):
+        density = density + by_radius[:, None] / np.maximum(points[..., 0], np.finfo(float).tiny)
+    return density
 
 
 def _lorentz(solution: Solution, elements: Ints, psi: Floats) -> Floats:
     """(k, q, 3) force and torque of the currents at the quadrature points, times the measure."""
-    problem = solution.problem
-    mesh = problem.mesh
-    uniform, by_radius = (part[mesh.region[elements]] for part in current_density(problem))
+    mesh = solution.problem.mesh
     points = positions(mesh, elements)
-    density = np.broadcast_to(uniform[:, None], points.shape[:2])
-    if np.any(by_radius):
-        density = density + by_radius[:, None] / np.maximum(points[..., 0], np.finfo(float).tiny)
     curl, measure = solution.system.kernel.curl[elements], solution.system.kernel.weight[elements]
     field = from_frame(mesh.chart, np.einsum("mqkn,mn->mqk", curl, psi, optimize=True))
-    amount = density * measure
+    amount = _current(solution, elements, points) * measure
     if mesh.chart == "axisymmetric":  # φ × r = −z, φ × z = r
         force = np.stack((amount * field[..., 1], -amount * field[..., 0]), axis=-1)
     else:  # z × x = y, z × y = −x

@@ -20,8 +20,8 @@ from fluxbore.fem.goals import EnergyGoal, ForceGoal, LinkageGoal, PointGoal
 from fluxbore.fem.linkage import flux_linkages
 from fluxbore.fem.locate import Locator
 from fluxbore.fem.magnetostatics import Settings, Solution
-from fluxbore.fem.mesh import Floats
-from fluxbore.fem.probe import Probe, probe
+from fluxbore.fem.mesh import Floats, Mesh
+from fluxbore.fem.probe import REACH, Probe, probe
 from fluxbore.fem.problem import Problem
 from fluxbore.fem.quadratic import quadratic_nodes
 from fluxbore.fem.recovery import RecoveredField
@@ -35,8 +35,11 @@ DEFAULT_ACCURACY = 1e-3
 LOCAL_SLACK = 3.0
 """The elements' own field at a point may be this much worse than the accuracy: the recovered one is given."""
 
-MAX_UNKNOWNS = 150_000
-"""Refinement ends here, and says that the accuracy was not reached."""
+MAX_UNKNOWNS = 200_000
+"""Where refinement for an accuracy that was asked for ends; it then says that the accuracy was not reached."""
+
+MODEST_UNKNOWNS, MODEST_GROWTH = 30_000, 1.5
+"""Where refinement for the default accuracy ends: so many, or so many times those of the file's own mesh sizes."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,7 +138,7 @@ def solve_model(
     groups: Sequence[int] = (),
     points: Sequence[tuple[float, float]] = (),
     accuracy: float | None = None,
-    max_unknowns: int = MAX_UNKNOWNS,
+    max_unknowns: int | None = None,
 ) -> FemmSolution:
     """Mesh, solve and refine until the estimated errors hold.
 
@@ -143,7 +146,6 @@ def solve_model(
 
     Raises SpecError, MeshError for files that mean nothing; a failure to converge is in the solution.
     """
-    accuracy = DEFAULT_ACCURACY if accuracy is None else accuracy
     drawn = drawing(model)
     drawn = replace(drawn, outline=facing(drawn.outline))
     for group in groups:
@@ -162,9 +164,16 @@ def solve_model(
     def watched(solution: Solution, field: RecoveredField) -> Floats:
         return _local_error(solution, field, places) / LOCAL_SLACK
 
+    triangulation = triangulate(drawn.outline)
+    first = discretise(triangulation).mesh
+    _check_points(model, first, places)
+    if max_unknowns is None:
+        modest = max(MODEST_UNKNOWNS, int(MODEST_GROWTH * first.topology.unknowns))
+        max_unknowns = modest if accuracy is None else MAX_UNKNOWNS
+    accuracy = DEFAULT_ACCURACY if accuracy is None else accuracy
     adapted = solve_adaptively(
         discretise,
-        triangulate(drawn.outline),
+        triangulation,
         drawn.outline,
         goals,
         accuracy,
@@ -173,6 +182,17 @@ def solve_model(
         max_unknowns,
     )
     return FemmSolution(model, drawn, adapted, accuracy)
+
+
+def _check_points(model: FemmModel, mesh: Mesh, places: Floats) -> None:
+    """Refuse a point outside the model before the work."""
+    if not places.size:
+        return
+    elements, _ = Locator(mesh).find(places, reach=REACH)
+    outside = np.flatnonzero(elements < 0)
+    if outside.size:
+        x, y = places[outside[0]] / model.metres
+        raise SpecError(f"--point must lie inside the model; ({x:.6g}, {y:.6g}) {model.unit} does not.")
 
 
 def goals_of(model: FemmModel, groups: Sequence[int]) -> list[Goal]:

@@ -13,6 +13,9 @@ from fluxbore.fem.magnetostatics import Solution, in_sheets
 from fluxbore.fem.mesh import Floats, Ints
 from fluxbore.fem.recovery import RecoveredField
 
+REACH = 1e-3
+"""A point this far outside, as a share of the mesh's diagonal, still counts: the elements cut arcs a little short."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Probe:
@@ -34,7 +37,7 @@ def probe(solution: Solution, field: RecoveredField, locator: Locator, points: F
     Raises SpecError for a point outside the mesh.
     """
     mesh = solution.problem.mesh
-    elements, places = locator.find(points, reach=1e-3)
+    elements, places = locator.find(points, reach=REACH)
     outside = np.flatnonzero(elements < 0)
     if outside.size:
         x, y = points[outside[0]]

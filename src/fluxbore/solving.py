@@ -9,7 +9,7 @@ from pathlib import Path
 from fluxbore.design.errors import SpecError
 from fluxbore.fem.femm_model import FemmModel
 from fluxbore.fem.femm_reader import read_model
-from fluxbore.fem.femm_solution import MAX_UNKNOWNS, FemmSolution, solve_model
+from fluxbore.fem.femm_solution import FemmSolution, solve_model
 
 TIGHTEST_ACCURACY, LOOSEST_ACCURACY = 1e-6, 0.5
 
@@ -22,13 +22,13 @@ def solve(
     accuracy: float | None = None,
     changes: Mapping[str, str] | None = None,
     open_boundary: bool = False,
-    max_unknowns: int = MAX_UNKNOWNS,
+    max_unknowns: int | None = None,
 ) -> FemmSolution:
     """Solve a FEMM magnetics file, refining until the estimated errors of its figures hold.
 
     model : a `.fem` file or what `read_model` made of it. groups : whose forces are asked for. points : in the file's
-    unit, where the field is. accuracy : relative, 0.001 without it. changes : other values, as `--set` takes them.
-    open_boundary : put all of space around the model in place of its outer boundary.
+    unit, where the field is. accuracy : relative, 0.001 without it. max_unknowns : where refinement ends.
+    changes : other values, as `--set` takes them. open_boundary : put all of space around the model in place of its outer boundary.
 
     Raises FluxboreError with one sentence for whatever is wrong with the file or the question.
     """
