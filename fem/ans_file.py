@@ -25,7 +25,7 @@ def ans_text(solution: FemmSolution) -> str:
     model, problem = solution.model, solution.solution.problem
     mesh = problem.mesh
     triangles = mesh.elements[:, FOUR].reshape(-1, 3)
-    potential = solution.solution.psi * (2 * np.pi if model.axisymmetric else 1.0)
+    potential = _potential(model, problem, solution.solution.psi)
     places = mesh.positions / model.metres
     nodes = [
         f"{x:.17g}\t{y:.17g}\t{a:.17g}\t{prop}\t"
@@ -50,13 +50,38 @@ def ans_text(solution: FemmSolution) -> str:
     )
 
 
+def _potential(model: FemmModel, problem: Problem, psi: Floats) -> Floats:
+    """(n,) A (Wb/m), or 2π r A (Wb).
+
+    FEMM ties A on the rims of a Kelvin exterior where we tie r A, so that its flux there is R_o/R_i times ours.
+    """
+    if not model.axisymmetric:
+        return psi
+    flux = 2 * np.pi * psi
+    outside = [number for number, label in enumerate(model.labels) if label.external]
+    if outside and model.exterior is not None:
+        mesh = problem.mesh
+        nodes = np.unique(mesh.elements[np.isin(mesh.region, outside)])
+        flux[nodes] *= model.exterior.outer_radius / model.exterior.inner_radius
+    return np.asarray(flux)
+
+
 def _node_properties(solution: FemmSolution) -> list[int]:
     """Of each node the number of its point property, −1 for none."""
     found = np.full(solution.solution.problem.mesh.nodes.shape[0], -1)
+    corners = _corners(solution)
     for node, vertex in zip(solution.model.nodes, solution.adapted.triangulation.vertex, strict=True):
         if node.prop is not None and vertex >= 0:
-            found[vertex] = node.prop
+            found[corners[vertex]] = node.prop
     return [int(number) for number in found]
+
+
+def _corners(solution: FemmSolution) -> Ints:
+    """(n,) the mesh's number of each of the triangulation's points; the elements are the same, in the same order."""
+    triangulation = solution.adapted.triangulation
+    found = np.zeros(triangulation.points.shape[0], dtype=int)
+    found[triangulation.triangles] = solution.solution.problem.mesh.elements[:, :3]
+    return found
 
 
 def _edge_properties(solution: FemmSolution, triangles: Ints) -> Ints:
@@ -65,7 +90,7 @@ def _edge_properties(solution: FemmSolution, triangles: Ints) -> Ints:
     mesh = solution.solution.problem.mesh
     carried = [*(segment.boundary for segment in model.segments), *(arc.boundary for arc in model.arcs)]
     prop = np.array([-1 if number is None else number for number in carried] + [-1])[triangulation.curve]
-    edges, prop = triangulation.edges[prop >= 0], prop[prop >= 0]
+    edges, prop = _corners(solution)[triangulation.edges[prop >= 0]], prop[prop >= 0]
     count = mesh.nodes.shape[0]
     sides = np.stack([mesh.elements[:, [k, (k + 1) % 3]] for k in range(3)], axis=1).reshape(-1, 2)
     middles = mesh.elements[:, 3:].ravel()

@@ -1,7 +1,7 @@
 """FEMM's solution files, read as its readers do: the model's text, then rows of numbers."""
 
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 
@@ -13,7 +13,7 @@ sys.path.insert(0, str(Path(__file__).parents[2] / "docs" / "validation"))
 from cases.drawing import Drawing
 
 from fluxbore.fem.ans_file import ans_text
-from fluxbore.fem.femm_model import PointProperty
+from fluxbore.fem.femm_model import Exterior, PointProperty
 from fluxbore.fem.femm_reader import parse
 from fluxbore.fem.femm_solution import FemmSolution, solve_model
 from fluxbore.fem.mesh import Floats, Ints
@@ -167,3 +167,47 @@ def test_properties_of_nodes_and_edges() -> None:
         length = np.hypot(*(ends[:, 1] - ends[:, 0]).T)
         lengths += [length[prop == number].sum() for number in (0, 1)]
     assert lengths == pytest.approx([10, 20])
+
+
+@cache
+def exterior() -> FemmSolution:
+    """A coil in a ball of radius 20 mm, and all of space around it in a ball of the same size further down."""
+    drawing = Drawing(axisymmetric=True, exterior=Exterior(-50.0, 20.0, 20.0))
+    rim = drawing.boundary("rim", "periodic")
+    drawing.half_disc(20, boundary=rim)
+    drawing.half_disc(20, -50, boundary=rim)
+    drawing.rectangle((5, 8), (-3, 3))
+    air = drawing.material("air")
+    drawing.label(6, 0, air, drawing.circuit("coil", 5.0), turns=100)
+    drawing.label(15, 0, air)
+    drawing.label(5, -50, air)
+    drawing.labels[-1] = replace(drawing.labels[-1], external=True)
+    return solve_model(drawing.model())
+
+
+def test_the_energy_of_a_kelvin_exterior() -> None:
+    """Catches an exterior in our scale: FEMM takes the energy density there times (R/R_o)² where R_i = R_o."""
+    solution = exterior()
+    answer = read(ans_text(solution))
+    (r, z), a = answer.nodes[answer.corners, :2].transpose(2, 0, 1) * MM, answer.nodes[answer.corners, 2]
+    # ψ is linear in s = r²/2 and z in each triangle: B_z = ∂ψ/∂s, B_r = −∂ψ/∂z / r.
+    rows = np.stack((np.ones_like(r), r**2 / 2, z), axis=-1)
+    slope = np.linalg.solve(rows, a[..., None] / (2 * np.pi))[:, 1:, 0]
+    middle = r.mean(axis=1)
+    density = (slope[:, 0] ** 2 + (slope[:, 1] / middle) ** 2) / (2 * 4e-7 * np.pi)
+    volume = 2 * np.pi * middle * answer.areas * MM**2
+    squared = middle**2 + (z.mean(axis=1) + 50 * MM) ** 2
+    outside = answer.elements[:, 3] == 2
+    kelvin = np.where(outside, squared / (20 * MM) ** 2, 1.0)
+    energy = density * volume * kelvin
+    assert energy.sum() == pytest.approx(solution.energies[0], rel=0.01)
+    assert 0.01 < energy[outside].sum() / energy.sum() < 0.5
+
+
+def test_a_kelvin_exterior_of_another_size() -> None:
+    """Catches r A that is the same on both rims: FEMM has the same A there, so that its fluxes are as the radii."""
+    solution = exterior()
+    smaller = replace(solution, model=replace(solution.model, exterior=Exterior(-50.0, 10.0, 20.0)))
+    answer, other = read(ans_text(solution)), read(ans_text(smaller))
+    outside = answer.nodes[:, 1] < -25
+    assert other.nodes[:, 2] == pytest.approx(answer.nodes[:, 2] * np.where(outside, 0.5, 1.0))
