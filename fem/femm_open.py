@@ -14,7 +14,7 @@ from itertools import pairwise
 import numpy as np
 import shapely
 
-from fluxbore.design.errors import SpecError, shown
+from fluxbore.design.errors import SpecError, one_line, shown
 from fluxbore.fem.edges import Drawing, Edges
 from fluxbore.fem.femm_model import (
     Arc,
@@ -259,4 +259,4 @@ def _at(model: FemmModel, number: int) -> str:
 
 
 def _file(model: FemmModel) -> str:
-    return model.path or "The file"
+    return one_line(model.path) or "The file"

@@ -1,6 +1,7 @@
 """A design written for FEMM, read and solved as any file of FEMM's, is the design."""
 
 from collections import Counter
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -164,3 +165,13 @@ def test_a_part_on_the_axis_is_closed_there() -> None:
     assert all(s.boundary is None for s in axis)
     solved = solve_model(model, accuracy=2e-2)
     assert abs(solved.linkages[0]) > 1e-4
+
+
+def test_a_shared_line_belongs_to_the_iron() -> None:
+    """Catches a yoke that cannot be moved whole because a coil lies on it."""
+    section = stacked(10, 0.0)
+    coil = replace(section.coils[0], r=(0.012, 0.02))
+    model = femm_model(replace(section, coils=(coil,)))
+    shared = [s for s in model.segments if model.nodes[s.start].x == model.nodes[s.end].x == 20]
+    assert {s.group for s in shared} == {2}
+    assert {model.nodes[end].group for s in shared for end in (s.start, s.end)} == {2}
