@@ -11,6 +11,7 @@ from fluxbore.design.spec import Spec
 from fluxbore.geometry.assembly import Assembly
 
 if TYPE_CHECKING:
+    from fluxbore.fem.femm_model import FemmModel
     from fluxbore.reports.content import FluxMap, SlotComparison
 
 
@@ -19,16 +20,20 @@ class Actuator:
     """The verbs of one kind of actuator.
 
     assembly : its parts where they stand in the middle of the stroke. flux_map : its field at no current, for a
-    picture. slots : the slotted-slotless comparison. Views that a kind does not have are None.
+    picture. slots : the slotted-slotless comparison. femm_model : its cross-section as a FEMM model. What a kind does
+    not have is None.
     """
 
     assembly: Callable[[Spec], Assembly]
     flux_map: Callable[[Spec], FluxMap | None] | None = None
     slots: Callable[[Spec], SlotComparison | None] | None = None
+    femm_model: Callable[[Spec], FemmModel] | None = None
 
 
 ACTUATORS: dict[str, Actuator] = {
-    "hybrid": Actuator(hybrid_views.assembly, hybrid_views.flux_map, hybrid_views.slot_comparison),
+    "hybrid": Actuator(
+        hybrid_views.assembly, hybrid_views.flux_map, hybrid_views.slot_comparison, hybrid_views.femm_model
+    ),
 }
 """Every kind of actuator by its name in the specification."""
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from tempfile import TemporaryFile
 from time import monotonic
+from typing import Literal
 
 from fluxbore.actuators import actuator_of
 from fluxbore.design import spec as spec_module
@@ -124,15 +125,19 @@ def optimize(
     return result
 
 
-def export(spec: Spec | Path | str, folder: Path | str, *, force: bool = False) -> list[Path]:
-    """Write the design as STEP: the assembly, and a file for each part in ``parts``.
+def export(
+    spec: Spec | Path | str, folder: Path | str, *, force: bool = False, form: Literal["step", "fem"] = "step"
+) -> list[Path]:
+    """Write the design as STEP, the assembly and a file for each part in ``parts``; or as a FEMM model of its field.
 
     Raises MissingLibraryError where cadquery or libGL is missing, with the line that installs it; OutputError where
-    the folder holds other files and is not to be taken by ``force``.
+    the folder holds other files and is not to be taken by ``force``; SpecError for a kind of actuator without a model.
     """
+    spec = _spec(spec)
+    if form == "fem":
+        return [_write_femm(spec, folder, force)]
     from fluxbore.geometry.solid import load_cadquery
 
-    spec = _spec(spec)
     load_cadquery()  # before the folder is touched: without it there is nothing to write
     with open_folder(folder, spec, force) as place:
         return _write_cad(spec, place.path)
@@ -281,6 +286,17 @@ def _write_cad(spec: Spec, folder: Path) -> list[Path]:
     from fluxbore.geometry.step import write_step
 
     return write_step(actuator_of(spec).assembly(spec), folder)
+
+
+def _write_femm(spec: Spec, folder: Path | str, force: bool) -> Path:
+    from fluxbore.fem.femm_writer import write_text
+
+    make = actuator_of(spec).femm_model
+    _need(make is not None, "actuator.kind", "a FEMM model")
+    assert make is not None
+    text = write_text(make(spec))
+    with open_folder(folder, spec, force) as place:
+        return place.write(f"{spec.word('actuator.name')}.fem", text)
 
 
 def _evaluated(spec: Spec, journal: Journal | None, executor: Executor) -> Evaluation:

@@ -15,7 +15,7 @@ from io import TextIOWrapper
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
-from fluxbore import __version__, solve_options
+from fluxbore import __version__, solve_command
 from fluxbore.design.errors import FluxboreError, one_line, shown
 
 if TYPE_CHECKING:
@@ -35,7 +35,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         if isinstance(stream, TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
     try:
-        options = _parser().parse_args(solve_options.joined(arguments))
+        options = _parser().parse_args(solve_command.joined(arguments))
         options.arguments = arguments
         command: Callable[[argparse.Namespace], int] = options.command
         status = command(options)
@@ -104,9 +104,9 @@ def _parser() -> argparse.ArgumentParser:
     sweep.add_argument("--fidelity", choices=("network", "fem"), default="fem", help="default: fem")
     _with_run(add("optimize", _optimize, "search for the study's best design"), folder_needed=False)
 
-    export = _with_spec(add("export", _export, "write the design as STEP files"))
+    export = _with_spec(add("export", _export, "write the design as STEP files or as a FEMM model"))
     export.add_argument("-o", "--output", metavar="DIR", type=_path, required=True, help="folder for the files")
-    export.add_argument("--format", choices=("step",), default="step", help="default: step")
+    export.add_argument("--format", choices=("step", "fem"), default="step", help="default: step")
     export.add_argument("--force", action="store_true", help="take a folder that holds other files")
     export.add_argument("--json", action="store_true", help="print JSON")
 
@@ -118,7 +118,7 @@ def _parser() -> argparse.ArgumentParser:
     report.add_argument("--force", action="store_true", help="replace the file where it exists")
     report.add_argument("--json", action="store_true", help="print JSON")
 
-    solve_options.add_to(add("solve", _solve, "solve a FEMM magnetics file (.fem)"))
+    solve_command.add_to(add("solve", _solve, "solve a FEMM magnetics file (.fem)"))
 
     design = _with_run(add("design", _design, "sweeps, search, STEP files and report in one"), folder_needed=True)
     design.add_argument("--no-picture", action="store_true", help="do without the rendered picture")
@@ -171,7 +171,7 @@ def _load(options: argparse.Namespace) -> Spec:
     from fluxbore.actuators import actuator_of
     from fluxbore.design.spec import load
 
-    spec = load(options.spec, solve_options.assignments(options.set, 'actuator.mover.ring_width="2 mm"'))
+    spec = load(options.spec, solve_command.assignments(options.set, 'actuator.mover.ring_width="2 mm"'))
     # Parts that overlap in the drawing alone are wrong input too; a study's designs are judged one by one instead.
     actuator_of(spec).assembly(spec)
     return spec
@@ -269,7 +269,8 @@ def _optimize(options: argparse.Namespace) -> int:
 def _export(options: argparse.Namespace) -> int:
     from fluxbore.api import export
 
-    files = [str(path) for path in export(_load(options), options.output, force=options.force)]
+    found = export(_load(options), options.output, force=options.force, form=options.format)
+    files = [str(path) for path in found]
     if options.json:
         _print_json({"status": "ok", "reasons": [], "files": files})
     else:
@@ -293,18 +294,12 @@ def _report(options: argparse.Namespace) -> int:
 
 
 def _solve(options: argparse.Namespace) -> int:
-    from fluxbore.solution_messages import solution_plain, solution_text
-    from fluxbore.solving import solve
-
-    question = solve_options.question(options)
-    solution = solve(options.model, **question)
-    show = solution_plain if options.json else solution_text
-    answer = show(solution, question["groups"], question["points"])
+    valid, answer = solve_command.solve(options, lambda line: print(line, file=sys.stderr, flush=True))
     if isinstance(answer, str):
         print(answer)
     else:
         _print_json(answer)
-    return DONE if solution.solution.convergence.converged else NOT_VALID
+    return DONE if valid else NOT_VALID
 
 
 def _design(options: argparse.Namespace) -> int:

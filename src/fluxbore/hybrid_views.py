@@ -11,6 +11,7 @@ from fluxbore.geometry import hybrid_parts
 from fluxbore.geometry.assembly import Assembly
 
 if TYPE_CHECKING:
+    from fluxbore.fem.femm_model import FemmModel
     from fluxbore.reports.content import FluxMap, SlotComparison
 
 
@@ -40,6 +41,17 @@ def flux_map(spec: Spec) -> FluxMap | None:
     boxes += [(f"coil {coil.circuit}", coil.r, coil.z) for coil in solved.section.coils]
     outlines = tuple((name, np.array([(r[0], z[0]), (r[1], z[0]), (r[1], z[1]), (r[0], z[1])])) for name, r, z in boxes)
     return FluxMap(field.r, field.z, field.triangles, field.flux, field.flux_density, outlines, position, field.region)
+
+
+def femm_model(spec: Spec) -> FemmModel:
+    """The cross-section in the middle of the stroke, without current."""
+    from fluxbore.fem import femm_export
+    from fluxbore.geometry.hybrid import cross_section
+
+    actuator = spec.actuator
+    temperature = spec.number("operating_point.magnet_temperature")
+    section = cross_section(actuator, actuator.mid_stroke, spec.materials, temperature)
+    return femm_export.femm_model(section, comment=f"{spec.word('actuator.name')}, mover in the middle of its stroke")
 
 
 def slot_comparison(spec: Spec) -> SlotComparison | None:

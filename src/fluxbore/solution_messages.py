@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from math import pi
 from typing import Any
 
@@ -104,11 +104,9 @@ def warnings(solution: FemmSolution, forces: dict[int, GroupForce]) -> list[str]
     return found
 
 
-def solution_text(
-    solution: FemmSolution, groups: Sequence[int] = (), points: Sequence[tuple[float, float]] = ()
-) -> str:
-    """A few lines for a person."""
-    plain = solution_plain(solution, groups, points)
+def solution_text(plain: Mapping[str, Any]) -> str:
+    """A few lines for a person, of `solution_plain`'s object and whatever else was asked."""
+    axisymmetric = plain["problem"]["type"] == "axisymmetric"
     mesh, accuracy, convergence = plain["mesh"], plain["accuracy"], plain["convergence"]
     estimate = accuracy["estimate"]
     lines = [
@@ -122,17 +120,31 @@ def solution_text(
         lines.append(f"circuit {name}: {circuit['current']:g} A, flux linkage {circuit['flux_linkage']:.6g} Wb")
     for number, group in plain["groups"].items():
         first, second = group["force"]
-        words = f"axial {second:.6g} N" if solution.model.axisymmetric else f"x {first:.6g} N, y {second:.6g} N"
-        turning = "" if solution.model.axisymmetric else f", torque {group['torque']:.6g} N m"
+        words = f"axial {second:.6g} N" if axisymmetric else f"x {first:.6g} N, y {second:.6g} N"
+        turning = "" if axisymmetric else f", torque {group['torque']:.6g} N m"
         lines.append(f"group {number}: {words}{turning}, two routes differ by {group['force_error']:.2g} N")
-    names = ("B_r", "B_z") if solution.model.axisymmetric else ("B_x", "B_y")
+    names = ("B_r", "B_z") if axisymmetric else ("B_x", "B_y")
     for point in plain["points"]:
         x, y = point["at"]
         lines.append(
             f"({x:g}, {y:g}): {names[0]} {point['B'][0]:.6g} T, {names[1]} {point['B'][1]:.6g} T, "
             f"|B| {float(np.hypot(*point['B'])):.6g} T, A {point['A']:.6g}"
         )
+    for line in plain.get("lines", ()):
+        lines.append(
+            f"line of {line['length']:.6g} m: flux {line['flux']:.6g} Wb, mean B_n {line['mean_flux_density']:.6g} T, "
+            f"MMF {line['mmf']:.6g} A, mean H_t {line['mean_tangential_field']:.6g} A/m"
+        )
+    for group, integrals in plain.get("integrals", {}).items():
+        lines.append("integrals of all blocks:" if group == "all" else f"integrals of group {group}:")
+        lines += [f"  {name.replace('_', ' ')} {_numbers(value)}" for name, value in integrals.items()]
+    lines += [f"wrote {name}" for name in plain.get("files", ())]
     return "\n".join([*lines, *(f"warning: {sentence}" for sentence in plain["warnings"])])
+
+
+def _numbers(value: float | Sequence[float]) -> str:
+    values = value if isinstance(value, Sequence) else (value,)
+    return ", ".join(f"{number:.6g}" for number in values)
 
 
 def _force_plain(solution: FemmSolution, force: GroupForce) -> dict[str, Any]:

@@ -28,7 +28,8 @@ def solve(
 
     model : a `.fem` file or what `read_model` made of it. groups : whose forces are asked for. points : in the file's
     unit, where the field is. accuracy : relative, 0.001 without it. max_unknowns : where refinement ends.
-    changes : other values, as `--set` takes them. open_boundary : put all of space around the model in place of its outer boundary.
+    changes : other values, as `--set` takes them. open_boundary : put all of space around the model in place of its
+    outer boundary.
 
     Raises FluxboreError with one sentence for whatever is wrong with the file or the question.
     """
