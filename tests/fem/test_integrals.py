@@ -65,7 +65,7 @@ def ring() -> FemmSolution:
     drawing.label(3, 3, air, wire, turns=-50, group=2)
     drawing.label(0.5, 0, drawing.material("magnet", 1.05, remanence=1.0), group=3)
     drawing.label(8, 0, air)
-    return solve_model(drawing.model(), groups=(1, 2))
+    return solve_model(drawing.model(), groups=(1, 2), accuracy=0.01)
 
 
 def test_the_blocks_of_a_plane() -> None:
@@ -142,7 +142,7 @@ def test_two_ways_to_the_force_on_a_coil(group: int) -> None:
     lorentz = lorentz_force(ring().solution, regions)
     assert lorentz is not None
     assert block_integral(ring(), "lorentz_force", group) == pytest.approx(lorentz.force, rel=1e-12)
-    assert block_integral(ring(), 19, group) == pytest.approx(block_integral(ring(), 12, group), rel=5e-3)
+    assert block_integral(ring(), 19, group) == pytest.approx(block_integral(ring(), 12, group), rel=0.02)
     assert block_integral(ring(), 18, group) == (0.0,)
 
 
