@@ -11,6 +11,7 @@ import numpy as np
 from fluxbore.fem.adapt import Measure
 from fluxbore.fem.body_force import Component, stress_force, stress_gradient, stress_scale
 from fluxbore.fem.energy import energies
+from fluxbore.fem.linkage import flux_linkages
 from fluxbore.fem.locate import Locator
 from fluxbore.fem.magnetostatics import Solution
 from fluxbore.fem.mesh import Mesh
@@ -22,6 +23,9 @@ NEXT_TO_NOTHING = 0.02
 
 FORCE_SHARE = 0.5
 """Forces are held to half of the accuracy: the forces of a pair then add up to nothing within it."""
+
+SISTERS = 0.1
+"""A linkage below this share of the largest one is held against that share."""
 
 FAINT = 1e-3
 """A flux density below this share of the largest one is held against that share: a field that symmetry forbids is not
@@ -49,8 +53,10 @@ class LinkageGoal:
     def measure(self, solution: Solution) -> Measure:
         gradient = solution.problem.extent * solution.problem.circuits[self.index].density
         shares = gradient * solution.psi
-        value = float(shares.sum())
-        return Measure(value, max(abs(value), NEXT_TO_NOTHING * float(np.abs(shares).sum())), gradient)
+        value, largest = float(shares.sum()), float(np.abs(flux_linkages(solution)).max())
+        # A phase that links next to nothing by its position is held against its sisters.
+        scale = max(abs(value), NEXT_TO_NOTHING * float(np.abs(shares).sum()), SISTERS * largest)
+        return Measure(value, scale, gradient)
 
 
 @dataclass(frozen=True, slots=True)
