@@ -255,7 +255,10 @@ def _on_axis(mesh: Mesh, region: int) -> bool:
 def _block_sources(model: FemmModel, mesh: Mesh) -> list[Circuit]:
     found = []
     for number, label in enumerate(model.labels):
-        density = 0.0 if label.material is None else model.materials[label.material].current_density
+        # In a circuit the circuit says how much flows: FEMM takes the block's own current off the circuit's.
+        if label.material is None or label.circuit is not None:
+            continue
+        density = model.materials[label.material].current_density
         if density:
             found.append(circuit(mesh, "", [Conductor(number, density)], 1.0))
     return found

@@ -14,6 +14,8 @@ from fluxbore.fem.mesh import Floats, Ints
 from fluxbore.fem.outline import Curve, Outline
 
 MOST_CURVES = 20_000
+NEAREST = 1e-6
+"""Least size of a drawing over its distance from the origin, where rounding is 1e-10 of the size."""
 LEAST = 4e-6
 """Least distance between two features as a share of the drawing's diagonal. netgen joins points closer than 2.3e-6."""
 
@@ -64,6 +66,11 @@ def cleaned(outline: Outline) -> Outline:
     size = diagonal(outline)
     if size < 1e-12:
         raise MeshError(f"the drawing's points all lie at {place(outline, points[0])}")
+    if size < NEAREST * np.abs(points).max():
+        raise MeshError(
+            f"the drawing is {distance(outline, size)} large and as far from the origin as {place(outline, points[0])};"
+            " its coordinates are too coarse there"
+        )
     for curve in outline.curves:
         _check_curve(outline, curve)
     if outline.chart == "axisymmetric":
@@ -190,7 +197,9 @@ def _check_pairs(outline: Outline) -> None:
         where = f"from {place(outline, outline.points[a.start])} and from {place(outline, outline.points[b.start])}"
         if pair.first == pair.second:
             raise MeshError(f"the curve {place(outline, outline.points[a.start])} is periodic with itself")
-        if abs(a.turn - b.turn) > 1e-5 or abs(la - lb) > 1e-5 * max(la, lb):
+        # Arcs of one angle are alike whatever their radius: the rims of a Kelvin exterior may differ in size.
+        unlike = a.turn == 0 and abs(la - lb) > 1e-5 * max(la, lb)
+        if abs(a.turn - b.turn) > 1e-5 or unlike:
             raise MeshError(
                 f"the periodic sides {where} differ: they are {distance(outline, la)} and {distance(outline, lb)}"
                 f" long and turn by {np.degrees(a.turn):.6g} and {np.degrees(b.turn):.6g} degrees"

@@ -1,4 +1,4 @@
-"""The gallery's pictures: what is modelled, and its field."""
+"""The gallery's pictures of what is modelled."""
 
 from __future__ import annotations
 
@@ -9,14 +9,11 @@ import numpy as np
 from cases.case import Case
 from matplotlib import pyplot, rcParams
 from matplotlib.axes import Axes
-from matplotlib.tri import Triangulation
 
 from fluxbore.fem.femm_problem import drawing
-from fluxbore.fem.field import FluxMap
 from fluxbore.fem.mesh import Floats
 
 pyplot.switch_backend("Agg")
-rcParams["contour.negative_linestyle"] = "solid"
 rcParams["svg.hashsalt"] = "fluxbore"  # the same picture is the same file
 
 CONDITION, PERIODIC, LINE = "#b3261e", "#1f5fa8", "#222222"
@@ -36,26 +33,6 @@ def draw_model(case: Case, file: Path) -> None:
         axes.plot(*np.array(case.points).T, "x", color="#2e7d32", markersize=5)
     _finish(case, axes)
     figure.savefig(file, metadata={"Date": None})
-    pyplot.close(figure)
-
-
-def draw_field(case: Case, field: FluxMap, file: Path) -> None:
-    """|B| in colour and field lines, within the model's own extent."""
-    figure, axes = pyplot.subplots(figsize=(6, 6), layout="constrained")
-    x, y = field.r / case.model.metres, field.z / case.model.metres
-    top = float(np.quantile(field.flux_density, 0.995)) or 1.0
-    colours = axes.tripcolor(
-        x, y, field.triangles, facecolors=field.flux_density, cmap="viridis", vmin=0, vmax=top, rasterized=True
-    )
-    figure.colorbar(colours, ax=axes, label="|B| (T)", shrink=0.7)
-    low, high = float(field.flux.min()), float(field.flux.max())
-    if high > low:
-        levels = np.linspace(low, high, 26)[1:-1]
-        axes.tricontour(Triangulation(x, y, field.triangles), field.flux, levels=levels, colors="white", linewidths=0.6)
-    for points, _ in _curves(case):
-        axes.plot(*points.T, color=LINE, linewidth=0.6)
-    _finish(case, axes)
-    figure.savefig(file, dpi=110, metadata={"Software": None})
     pyplot.close(figure)
 
 

@@ -10,6 +10,7 @@ from fluxbore.design.errors import SpecError
 from fluxbore.fem.femm_model import FemmModel
 from fluxbore.fem.femm_reader import read_model
 from fluxbore.fem.femm_solution import FemmSolution, solve_model
+from fluxbore.fem.threads import one_thread
 
 TIGHTEST_ACCURACY, LOOSEST_ACCURACY = 1e-6, 0.5
 
@@ -47,4 +48,5 @@ def solve(
         from fluxbore.fem.femm_open import with_open_boundary
 
         read = with_open_boundary(read)
-    return solve_model(read, groups, points, accuracy, max_unknowns)
+    with one_thread():
+        return solve_model(read, groups, points, accuracy, max_unknowns)
