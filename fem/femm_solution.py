@@ -16,11 +16,12 @@ from fluxbore.fem.energy import energies
 from fluxbore.fem.facing import facing
 from fluxbore.fem.femm_model import FemmModel
 from fluxbore.fem.femm_problem import Drawing, drawing, problem
-from fluxbore.fem.goals import EnergyGoal, ForceGoal, LinkageGoal, PointGoal
+from fluxbore.fem.goals import EnergyGoal, ForceGoal, LinkageGoal, PointGoal, locator
 from fluxbore.fem.linkage import flux_linkages
 from fluxbore.fem.locate import Locator
 from fluxbore.fem.magnetostatics import Settings, Solution
 from fluxbore.fem.mesh import Floats, Mesh
+from fluxbore.fem.outline import Outline
 from fluxbore.fem.probe import REACH, Probe, probe
 from fluxbore.fem.problem import Problem
 from fluxbore.fem.quadratic import quadratic_nodes
@@ -37,6 +38,9 @@ LOCAL_SLACK = 3.0
 
 MAX_UNKNOWNS = 200_000
 """Where refinement for an accuracy that was asked for ends; it then says that the accuracy was not reached."""
+
+MOST_LEVELS, MODEST_LEVELS = 25, 12
+"""Meshes in all, for an accuracy that was asked for and for the default one."""
 
 MODEST_UNKNOWNS, MODEST_GROWTH = 30_000, 1.5
 """Where refinement for the default accuracy ends: so many, or so many times those of the file's own mesh sizes."""
@@ -65,12 +69,16 @@ class GroupForce:
 
 @dataclass(frozen=True, eq=False)
 class FemmSolution:
-    """model : as it was solved, with whatever was set. accuracy : asked for, relative."""
+    """model : as it was solved, with whatever was set. accuracy : asked for, relative.
+
+    corners : points asked for, in the file's unit, at which magnetic blocks have a corner.
+    """
 
     model: FemmModel
     drawing: Drawing
     adapted: Adapted
     accuracy: float
+    corners: tuple[tuple[float, float], ...] = ()
 
     @property
     def solution(self) -> Solution:
@@ -151,10 +159,6 @@ def solve_model(
     for group in groups:
         regions_of(model, group)
     places = np.array(points, dtype=float).reshape(-1, 2) * model.metres
-    goals = goals_of(model, groups)
-    for number, (x, y) in enumerate(places.tolist()):
-        at = f"B at point {number + 1}"
-        goals += [PointGoal(at, (x, y)), PointGoal(f"{at}, across", (x, y), across=True)]
 
     def discretise(triangulation: Triangulation) -> Problem:
         quadratic = quadratic_nodes(triangulation, drawn.outline)
@@ -162,13 +166,20 @@ def solve_model(
         return problem(model, conditioned, quadratic.vertex)
 
     def watched(solution: Solution, field: RecoveredField) -> Floats:
-        return _local_error(solution, field, places) / LOCAL_SLACK
+        return _local_error(solution, field, places[~corner]) / LOCAL_SLACK
 
     triangulation = triangulate(drawn.outline)
-    first = discretise(triangulation).mesh
-    _check_points(model, first, places)
+    first = discretise(triangulation)
+    _check_points(model, first.mesh, places)
+    corner = _at_corners(model, first, drawn.outline, places)
+    goals = goals_of(model, groups)
+    for number, (x, y) in enumerate(places.tolist()):
+        if not corner[number]:
+            at = f"B at point {number + 1}"
+            goals += [PointGoal(at, (x, y)), PointGoal(f"{at}, across", (x, y), across=True)]
+    max_levels = MODEST_LEVELS if accuracy is None else MOST_LEVELS
     if max_unknowns is None:
-        modest = max(MODEST_UNKNOWNS, int(MODEST_GROWTH * first.topology.unknowns))
+        modest = max(MODEST_UNKNOWNS, int(MODEST_GROWTH * first.mesh.topology.unknowns))
         max_unknowns = modest if accuracy is None else MAX_UNKNOWNS
     accuracy = DEFAULT_ACCURACY if accuracy is None else accuracy
     adapted = solve_adaptively(
@@ -178,10 +189,11 @@ def solve_model(
         goals,
         accuracy,
         Settings(tolerance=1e-8, method="auto"),
-        watched if len(points) else None,
+        watched if not corner.all() else None,
         max_unknowns,
+        max_levels,
     )
-    return FemmSolution(model, drawn, adapted, accuracy)
+    return FemmSolution(model, drawn, adapted, accuracy, tuple(p for p, c in zip(points, corner, strict=True) if c))
 
 
 def _check_points(model: FemmModel, mesh: Mesh, places: Floats) -> None:
@@ -193,6 +205,22 @@ def _check_points(model: FemmModel, mesh: Mesh, places: Floats) -> None:
     if outside.size:
         x, y = places[outside[0]] / model.metres
         raise SpecError(f"--point must lie inside the model; ({x:.6g}, {y:.6g}) {model.unit} does not.")
+
+
+def _at_corners(model: FemmModel, problem: Problem, outline: Outline, places: Floats) -> np.ndarray:
+    """(k,) whether a place is a node of the drawing where a magnetic block meets another one.
+
+    The flux density at an iron's corner is infinite: no mesh has it, and none is refined for it.
+    """
+    found = np.zeros(places.shape[0], dtype=bool)
+    mesh = problem.mesh
+    size = float(np.hypot(*np.ptp(outline.points, axis=0)))
+    for number, place in enumerate(places):
+        if np.hypot(*(outline.points - place).T).min() < 1e-6 * size:
+            elements = [element for element, _ in locator(mesh).find_all(place)]
+            regions = set(mesh.region[elements].tolist())
+            found[number] = len(regions) > 1 and any(problem.materials[region].magnetic for region in regions)
+    return found
 
 
 def goals_of(model: FemmModel, groups: Sequence[int]) -> list[Goal]:

@@ -94,6 +94,8 @@ def warnings(solution: FemmSolution, forces: dict[int, GroupForce]) -> list[str]
             f"The accuracy of {solution.accuracy * 100:g} % was not reached with "
             f"{solution.solution.problem.mesh.topology.unknowns} unknowns; the estimate is {worst * 100:.2g} %."
         )
+    for x, y in solution.corners:
+        found.append(f"({x:g}, {y:g}) is a corner of a magnetic block: the field there has no finite value.")
     for group, force in forces.items():
         if force.touches:
             label = solution.model.labels[force.touches[0]]
