@@ -140,7 +140,7 @@ def main(names: list[str]) -> int:
             continue
         (TARGET / f"{case.name}.fem").write_text(write_text(case.model), encoding="utf-8")
         draw_model(case, TARGET / f"{case.name}.svg")
-        flux_plot(runs[DEFAULT].solution, TARGET / f"{case.name}.png", width=700)
+        flux_plot(runs[DEFAULT].solution, TARGET / f"{case.name}.png", width=520)
         (TARGET / f"{case.name}.md").write_text(page(case, runs), encoding="utf-8")
         rows.append(summary(case, runs))
         print(rows[-1], flush=True)
