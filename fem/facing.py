@@ -11,8 +11,8 @@ from fluxbore.fem.faces import faces
 from fluxbore.fem.outline import Outline
 from fluxbore.fem.outline_check import cleaned, pieces
 
-_LIMIT = 400_000
-"""Sides that telling close curves apart may make."""
+_LIMIT = 60_000
+"""Of triangles, as the mesh's: what telling close curves apart may cost."""
 
 
 def facing(outline: Outline) -> Outline:

@@ -14,6 +14,8 @@ from fluxbore.fem.formula import parse_formula
 LARGEST_LENGTH = 1e6
 """m, of a coordinate: beyond it stands a wrong number."""
 
+MOST_TURNS = 1e9
+
 AXIS_TOLERANCE = 1e-9
 """Of the drawing's size: how far a node may be beyond the axis by rounding; it is put on it."""
 
@@ -144,6 +146,9 @@ def _arc(row: Row, nodes: tuple[Node, ...], boundaries: Sequence[Property]) -> A
 def _label(row: Row, metres: float, materials: int, circuits: int) -> BlockLabel:
     x, y = _position(row, metres)
     size = row.number(3, "The mesh size", -1.0)
+    turns = row.number(7, "The number of turns", 1.0)
+    if abs(turns) > MOST_TURNS:
+        raise row.error(f"The number of turns must be at most {MOST_TURNS:g}; got {turns:g}.")
     flags = row.integer(8, "The external flag", 0)
     direction: float | str = row.number(5, "The magnetisation", 0.0)
     if row.text.strip():
@@ -160,7 +165,7 @@ def _label(row: Row, metres: float, materials: int, circuits: int) -> BlockLabel
         circuit=row.reference(4, "The circuit", circuits),
         magnetisation=direction,
         group=row.integer(6, "The group", 0),
-        turns=row.number(7, "The number of turns", 1.0),
+        turns=turns,
         external=bool(flags & 1),
         default=bool(flags & 2),
     )

@@ -33,6 +33,18 @@ PERMEABILITIES = (1e-6, 1e12)
 COERCIVITY = 1e9
 """A/m, a thousand times the strongest magnet's: beyond it stands a wrong unit."""
 
+MOST_AMPERES = 1e12
+"""Of currents, and in MA/m² of their densities: beyond them, and beyond the next three, stands a wrong number."""
+
+MOST_POTENTIAL = 1e12
+"""Wb/m, also per unit of length or degree."""
+
+MOST_C0, MOST_C1 = 1e15, 1e12
+"""1/H, where a condition of a layer of air has 1e9 at a millimetre; A/m."""
+
+MOST_CONDUCTIVITY = 1e12
+"""MS/m; copper has 58."""
+
 STRONGEST = 100.0
 """T, the greatest B of a table: beyond it B is in gauss, or the columns are swapped."""
 
@@ -43,11 +55,11 @@ SLOPE = 0.5
 def point_property(found: Property) -> PointProperty:
     """A current where there is one, and a prescribed potential otherwise, as FEMM takes it."""
     _real(found, "i_im")
-    name, current = found.string("pointname", "New Point Property"), found.number("i_re")
+    name, current = found.string("pointname", "New Point Property"), found.number("i_re", most=MOST_AMPERES)
     if current:
         return PointProperty(name, None, current)
     _real(found, "a_im")
-    return PointProperty(name, found.number("a_re"))
+    return PointProperty(name, found.number("a_re", most=MOST_POTENTIAL))
 
 
 def boundary_property(found: Property) -> BoundaryProperty:
@@ -57,12 +69,12 @@ def boundary_property(found: Property) -> BoundaryProperty:
     if kind is None and number not in UNSUPPORTED_BOUNDARIES:
         raise found.error("bdrytype", f"must be from 0 to 7; got {number}.")
     if kind == "prescribed":
-        a0, a1, a2, phase = (found.number(key) for key in ("a_0", "a_1", "a_2", "phi"))
-        return BoundaryProperty(name, kind, a0, a1, a2, phase)
+        a0, a1, a2 = (found.number(key, most=MOST_POTENTIAL) for key in ("a_0", "a_1", "a_2"))
+        return BoundaryProperty(name, kind, a0, a1, a2, found.number("phi"))
     if kind == "mixed":
         _real(found, "c0i")
         _real(found, "c1i")
-        return BoundaryProperty(name, kind, c0=found.number("c0"), c1=found.number("c1"))
+        return BoundaryProperty(name, kind, c0=found.number("c0", most=MOST_C0), c1=found.number("c1", most=MOST_C1))
     return BoundaryProperty(name, kind or "mixed")
 
 
@@ -73,7 +85,7 @@ def unsupported(found: Property) -> str | None:
 
 def block_property(found: Property) -> BlockProperty:
     mu_x, mu_y = (_permeability(found, key) for key in ("mu_x", "mu_y"))
-    coercivity, conductivity = found.number("h_c"), found.number("sigma", power=6)
+    coercivity, conductivity = found.number("h_c"), found.number("sigma", power=6, most=MOST_CONDUCTIVITY)
     if abs(coercivity) > COERCIVITY:
         raise found.error("h_c", f"must be at most {COERCIVITY:g} A/m; got {coercivity:g}.")
     if conductivity < 0:
@@ -88,7 +100,7 @@ def block_property(found: Property) -> BlockProperty:
         mu_x=mu_x,
         mu_y=mu_y,
         coercivity=coercivity,
-        current_density=found.number("j_re", power=6),
+        current_density=found.number("j_re", power=6, most=MOST_AMPERES),
         conductivity=conductivity,
         lamination=LAMINATIONS[number],
         fill=_fill(found, matters=bool(curve) or (mu_x, mu_y) != (1.0, 1.0)),
@@ -105,7 +117,9 @@ def circuit_property(found: Property) -> CircuitProperty:
     number = found.integer("circuittype")
     if number not in (0, 1):
         raise found.error("circuittype", f"must be 0 for parallel or 1 for series; got {number}.")
-    return CircuitProperty(found.string("circuitname", "New Circuit"), found.number("totalamps_re"), number == 1)
+    return CircuitProperty(
+        found.string("circuitname", "New Circuit"), found.number("totalamps_re", most=MOST_AMPERES), number == 1
+    )
 
 
 def _real(found: Property, key: str) -> None:

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TypeVar
 
 from fluxbore.design.errors import shown
-from fluxbore.fem.femm_drawing import drawing
+from fluxbore.fem.femm_drawing import LARGEST_LENGTH, drawing
 from fluxbore.fem.femm_model import METRES, Exterior, FemmModel, LengthUnit
 from fluxbore.fem.femm_properties import block_property, boundary_property, circuit_property, point_property
 from fluxbore.fem.femm_text import Entry, FemmText, Source, take_apart
@@ -30,6 +30,9 @@ UNITS: dict[str, LengthUnit] = {
     "microns": "microns",
     "micrometers": "microns",
 }
+DEPTHS = (1e-15, 1e9)
+"""m, of planar problems."""
+
 OTHER_PROBLEMS = {
     "conductorprops": "electrostatics, heat flow or current flow",
     "dt": "heat flow",
@@ -72,7 +75,7 @@ def parse(text: str, path: str = "") -> FemmModel:
     settings = found.settings
     axisymmetric = _word(found, "ProblemType", {"planar": False, "axisymmetric": True})
     unit = _word(found, "LengthUnits", UNITS)
-    exterior = _exterior(found) if axisymmetric else None
+    exterior = _exterior(found, METRES[unit]) if axisymmetric else None
     drawn = drawing(found, METRES[unit], axisymmetric, exterior is not None)
     return FemmModel(
         axisymmetric=axisymmetric,
@@ -146,10 +149,12 @@ def _depth(entry: Entry | None, metres: float, axisymmetric: bool) -> float:
         return 1.0 if axisymmetric else 1 / metres
     if entry is not None and depth <= 0:
         raise entry.error(f"must be positive in a planar file; got {depth:g}.")
+    if entry is not None and not axisymmetric and not DEPTHS[0] <= depth * metres <= DEPTHS[1]:
+        raise entry.error(f"must be from {DEPTHS[0]:g} m to {DEPTHS[1]:g} m; got {depth * metres:g} m.")
     return depth
 
 
-def _exterior(found: FemmText) -> Exterior | None:
+def _exterior(found: FemmText, metres: float) -> Exterior | None:
     """None unless both radii are given, as in FEMM."""
     centre, outer, inner = (
         found.settings[key].number() if key in found.settings else 0.0 for key in ("extzo", "extro", "extri")
@@ -157,4 +162,7 @@ def _exterior(found: FemmText) -> Exterior | None:
     for key, radius in (("extro", outer), ("extri", inner)):
         if radius < 0:
             raise found.settings[key].error(f"must not be negative; got {radius:g}.")
+    for key, length in (("extzo", centre), ("extro", outer), ("extri", inner)):
+        if abs(length) * metres > LARGEST_LENGTH:
+            raise found.settings[key].error(f"must be within {LARGEST_LENGTH:g} m; got {length * metres:g} m.")
     return Exterior(centre, outer, inner) if outer and inner else None

@@ -122,9 +122,14 @@ class Property:
     entries: dict[str, Entry] = field(default_factory=dict)
     curve: tuple[Row, ...] = ()
 
-    def number(self, key: str, default: float = 0.0, power: int = 0) -> float:
-        """Times 10^power."""
-        return self.entries[key].number(power) if key in self.entries else default
+    def number(self, key: str, default: float = 0.0, power: int = 0, most: float = LARGEST) -> float:
+        """Times 10^power. most : its greatest magnitude, as the file has it."""
+        if key not in self.entries:
+            return default
+        value = self.entries[key].number()
+        if abs(value) > most:
+            raise self.error(key, f"must be at most {most:g}; got {value:g}.")
+        return self.entries[key].number(power) if power else value
 
     def integer(self, key: str, default: int = 0) -> int:
         return self.entries[key].integer() if key in self.entries else default

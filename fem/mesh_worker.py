@@ -23,8 +23,10 @@ import numpy as np
 from fluxbore.design.errors import MeshError
 from fluxbore.fem.mesh import Floats, Ints
 
-TIME_LIMIT = 20.0
-"""Seconds for a mesh, before what its size adds."""
+TIME_LIMIT = 8.0
+"""Seconds of the processor for a mesh, before what its size adds."""
+BUSY = 2.0
+"""Seconds on the clock that a second of the processor may take: on a busy machine nothing hangs yet."""
 MEMORY_LIMIT = 1_500_000_000
 """Bytes of address space, where the system can limit it."""
 
@@ -34,7 +36,7 @@ class Job:
     """points : (n, 2) m. ends : (k, 2). sides : (k, 2) domains from 1 left and right, 0 outside.
 
     copy : (k,) the side whose nodes this one repeats, −1 for none. sizes : (domains,) greatest side (m). seconds : time
-    limit.
+    limit, of the processor where the system can tell it.
     """
 
     points: Floats
@@ -67,7 +69,7 @@ def run(job: Job) -> Answer:
             late.set()
             worker.kill()
 
-        timer = threading.Timer(job.seconds, stop)
+        timer = threading.Timer(BUSY * job.seconds, stop)
         timer.daemon = True
         timer.start()
         try:
@@ -77,7 +79,7 @@ def run(job: Job) -> Answer:
             answer: Answer = _receive(worker.stdout)
         except (OSError, EOFError, pickle.UnpicklingError):
             _end()
-            if late.is_set():
+            if late.is_set() or worker.returncode == -getattr(signal, "SIGPROF", 0):
                 raise MeshError(f"the mesher needed more than {job.seconds:.0f} s and was stopped") from None
             raise MeshError("the mesher crashed, or needed more than 1.5 GB, on this drawing") from None
         except BaseException:
@@ -239,8 +241,7 @@ def main() -> None:
             job = _receive(pipe_in)
         except EOFError:
             return
-        if hasattr(signal, "alarm"):
-            signal.alarm(int(job.seconds) + 5)  # should the parent be gone, nobody else would stop it
+        _stop_after(job.seconds)
         try:
             answer = best(job)
         except MemoryError:
@@ -248,9 +249,15 @@ def main() -> None:
         except Exception as error:
             words = " ".join(str(error).split())[:60] or type(error).__name__
             answer = Answer(np.zeros((0, 2)), nothing, nothing[:, 0], nothing[:, :2], words)
-        if hasattr(signal, "alarm"):
-            signal.alarm(0)
+        _stop_after(0)
         _send(pipe_out, answer)
+
+
+def _stop_after(seconds: float) -> None:
+    """End this process when it has reckoned for so long; 0 for no end. In time too, should the parent be gone."""
+    if hasattr(signal, "setitimer"):
+        signal.setitimer(signal.ITIMER_PROF, max(seconds, 0.0))
+        signal.setitimer(signal.ITIMER_REAL, max(BUSY * seconds + 5 * (seconds > 0), 0.0))
 
 
 if __name__ == "__main__":

@@ -29,7 +29,11 @@ GRADINGS = (0.3, 0.2, 0.25, 0.4)
 """Growth of the sides with the distance from shorter ones, and what to try next if that gives slender triangles."""
 
 
-def triangulate(outline: Outline, limit: int = 400_000) -> Triangulation:
+LIMIT = 60_000
+"""Triangles: as fine as four times as many straight ones, and a nonlinear problem on them takes some 20 s."""
+
+
+def triangulate(outline: Outline, limit: int = LIMIT) -> Triangulation:
     """A mesh of the outline with at most about `limit` triangles.
 
     Raises MeshError, one sentence with coordinates in the drawing's unit, for what cannot be meshed.
@@ -61,7 +65,9 @@ def _sizes(drawing: Drawing, found: Faces, limit: int) -> Floats:
     if (wished <= 0).any():
         at = place(drawing.outline, np.array(seeds[int(np.argmax(wished <= 0))].position))
         raise MeshError(f"the mesh size of the block label at {at} must be positive")
-    count = found.area / (0.43 * np.where(np.isnan(wished), AUTOMATIC * found.extent, wished) ** 2)
+    # The square of a size such as 1e-200 would vanish.
+    side = np.where(np.isnan(wished), AUTOMATIC * found.extent, np.maximum(wished, 1e-9 * found.extent))
+    count = found.area / (0.43 * side**2)
     automatic = float(count[np.isnan(wished)].sum())
     coarser = max(1.0, np.sqrt(4 * automatic / limit))  # many faces: none of them may cost too much
     asked = np.where(np.isnan(wished), 0.0, count)
@@ -72,7 +78,7 @@ def _sizes(drawing: Drawing, found: Faces, limit: int) -> Floats:
             f" {place(drawing.outline, np.array(seeds[k].position))} asks for about {asked[k]:.2g} triangles;"
             f" at most {limit} are made"
         )
-    return np.where(np.isnan(wished), coarser * AUTOMATIC * found.extent, wished)
+    return np.where(np.isnan(wished), coarser * side, side)
 
 
 def _parts(drawing: Drawing, edges: Edges, found: Faces, sizes: Floats, limit: int) -> Ints:

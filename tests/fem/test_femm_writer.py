@@ -27,7 +27,8 @@ from fluxbore.fem.femm_model import (
 from fluxbore.fem.femm_reader import parse
 from fluxbore.fem.femm_writer import write_text
 
-values = st.floats(-1e20, 1e20, allow_subnormal=False)
+values = st.floats(-1e9, 1e9, allow_subnormal=False)
+lengths = st.floats(1e-9, 1e5)
 positive = st.floats(1e-9, 1e9)
 names = st.text(st.characters(blacklist_characters="\n\r\0", blacklist_categories=["Cs"]), max_size=12)
 groups = st.integers(-5, 2**31 - 1)
@@ -90,7 +91,11 @@ def models(draw: st.DrawFn) -> FemmModel:
     rest = st.tuples(number(len(boundaries)), st.booleans(), groups)
     segments = draw(some(st.builds(lambda e, size, last: Segment(*e, size, *last), ends, sizes, rest), 1))
     arcs = draw(some(st.builds(lambda e, turn, most, last: Arc(*e, turn, most, *last), ends, angles, angles, rest)))
-    exterior = draw(st.none() | st.builds(Exterior, values, positive, positive)) if axisymmetric else None
+    exterior = (
+        draw(st.none() | st.builds(Exterior, lengths | lengths.map(lambda x: -x), lengths, lengths))
+        if axisymmetric
+        else None
+    )
     outside = st.booleans() if exterior is not None or not axisymmetric else st.just(False)
     labels = st.builds(
         BlockLabel, x, y, number(len(materials)), sizes, number(len(circuits)), values | formulas, groups, values,

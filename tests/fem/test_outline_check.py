@@ -44,6 +44,7 @@ def square(
         (square(seeds=(Seed((1.0, 0.5), 0),)), r"label at \(1, 0.5\) mm lies on a line"),
         (square(seeds=(Seed((0.1, 0.1), HOLE),)), "every face of the drawing is a hole"),
         (square(seeds=(Seed((0.1, 0.1), 0, size=1e-5),)), r"size 1e-05 mm .* \(0.1, 0.1\) mm asks for about"),
+        (square(seeds=(Seed((0.1, 0.1), 0, size=1e-300),)), r"asks for about .* triangles; at most"),
         (square(curves=(Curve(1, 1),)), r"starts and ends in the point \(1, 0\) mm"),
         (square(curves=(Curve(0, 9),)), "names point 9; the drawing has 4 points"),
         (square(((0.5, 0.5), (0.5, 0.7)), (Curve(4, 5),), pairs=(Pair(0, 4),)), "periodic sides .* differ"),
@@ -54,6 +55,16 @@ def test_a_drawing_that_cannot_be_meshed_is_refused_with_coordinates(outline: Ou
     with pytest.raises(MeshError, match=sentence) as caught:
         triangulate(outline)
     assert "\n" not in str(caught.value)
+
+
+def test_a_drawing_too_far_from_the_origin_is_refused() -> None:
+    """Catches points that coarse coordinates move: a millimetre at a thousand kilometres has two digits left."""
+    outline = Outline("planar", 1e-3 * np.array(SQUARE) + 1e6, SIDES, (Seed((1e6 + 5e-4, 1e6 + 5e-4), 0),))
+    with pytest.raises(MeshError, match="coordinates are too coarse there"):
+        triangulate(outline)
+    assert len(
+        triangulate(Outline("planar", np.array(SQUARE) + 1e5, SIDES, (Seed((1e5 + 0.5, 1e5 + 0.5), 0),))).triangles
+    )
 
 
 def test_an_open_outline_is_refused() -> None:

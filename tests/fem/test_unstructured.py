@@ -188,7 +188,7 @@ def test_a_dead_worker_is_replaced() -> None:
 
 def test_a_slow_mesher_is_stopped(monkeypatch: pytest.MonkeyPatch) -> None:
     """Catches a hang: the worker is killed, the sentence says so, and the next mesh is made."""
-    outline = planar(SQUARE, SIDES, [Seed((0.1, 0.1), 0, size=3e-3)])
+    outline = planar(SQUARE, SIDES, [Seed((0.1, 0.1), 0, size=4e-3)])
     with monkeypatch.context() as patch:
         patch.setattr(unstructured, "TIME_LIMIT", -100.0)
         with pytest.raises(MeshError, match="was stopped"):
