@@ -1,0 +1,21 @@
+"""A sample of the damaged files that `benchmarks/fuzz.py` solves by the thousand."""
+
+from __future__ import annotations
+
+import femm_fuzz
+import pytest
+
+pytestmark = pytest.mark.full
+
+SEED = 7
+
+
+@pytest.mark.parametrize("hundred", range(10))
+def test_damaged_files_give_an_answer_or_one_sentence(hundred: int) -> None:
+    """Catches any exception that is not ours, a warning of numpy's, and a figure that is no number."""
+    for number in range(100 * hundred, 100 * hundred + 100):
+        item = femm_fuzz.mutant(SEED, number)
+        try:
+            assert femm_fuzz.outcome(item).sentence
+        except Exception as error:
+            raise AssertionError(f"file {number}, a damaged {item.name}") from error
