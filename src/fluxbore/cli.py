@@ -118,7 +118,7 @@ def _parser() -> argparse.ArgumentParser:
     report.add_argument("--force", action="store_true", help="replace the file where it exists")
     report.add_argument("--json", action="store_true", help="print JSON")
 
-    solve_command.add_to(add("solve", _solve, "solve a FEMM magnetics file (.fem)"))
+    solve_command.add_to(add("solve", _solve, "solve a FEMM magnetics file (.fem)"), _path, _positive)
 
     design = _with_run(add("design", _design, "sweeps, search, STEP files and report in one"), folder_needed=True)
     design.add_argument("--no-picture", action="store_true", help="do without the rendered picture")
@@ -294,7 +294,7 @@ def _report(options: argparse.Namespace) -> int:
 
 
 def _solve(options: argparse.Namespace) -> int:
-    valid, answer = solve_command.solve(options, lambda line: print(line, file=sys.stderr, flush=True))
+    valid, answer = solve_command.solve(options)
     if isinstance(answer, str):
         print(answer)
     else:

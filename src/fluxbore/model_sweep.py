@@ -2,90 +2,134 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from hashlib import sha256
 from itertools import product
+from math import prod
 from pathlib import Path
-from typing import Any
+from time import monotonic
+from typing import Any, BinaryIO
 
-from fluxbore.design.errors import FluxboreError, OutputError
+from fluxbore.design.errors import FluxboreError, OutputError, SpecError
 from fluxbore.fem.femm_edit import edit
 from fluxbore.fem.femm_model import FemmModel
 from fluxbore.fem.femm_setting import sweep_values
+from fluxbore.fem.femm_solution import regions_of
+from fluxbore.fem.femm_value import spelt
 from fluxbore.fem.femm_writer import write_text
 from fluxbore.optimize.executor import local_executor
 from fluxbore.optimize.folder import write_atomic
+from fluxbore.optimize.journal import Journal
+from fluxbore.optimize.progress import Progress, Report
+from fluxbore.solving import check_accuracy
 
 JOURNAL, TABLE = "sweep.jsonl", "results.csv"
+
+MOST_ROWS = 100_000
+
+Values = tuple[str, ...]
+Row = dict[str, Any]
 
 
 @dataclass(frozen=True, slots=True)
 class ModelSweep:
     """A question put to a model at every combination of some values.
 
-    axes : (key, values as typed). The last axis runs fastest.
+    axes : (key, values as typed). The last axis runs fastest. changes : (key, value) pairs made in every row, before
+    those of the axes.
     """
 
     model: FemmModel
-    axes: tuple[tuple[str, tuple[str, ...]], ...]
+    axes: tuple[tuple[str, Values], ...]
+    changes: tuple[tuple[str, str], ...] = ()
     groups: tuple[int, ...] = ()
     points: tuple[tuple[float, float], ...] = ()
     accuracy: float | None = None
     open_boundary: bool = False
 
     @classmethod
-    def of(cls, model: FemmModel, axes: Sequence[str], **question: Any) -> ModelSweep:
-        """From KEY=FIRST:LAST:STEP texts. Raises SpecError, also where a first value means nothing to the model."""
-        found = tuple(sweep_values(text) for text in axes)
-        edit(model, {key: values[0] for key, values in found})
-        return cls(model, found, **question)
+    def of(
+        cls, model: FemmModel, axes: Sequence[str], changes: Sequence[tuple[str, str]] = (), **question: Any
+    ) -> ModelSweep:
+        """From KEY=FIRST:LAST:STEP texts.
+
+        Raises SpecError for whatever would make every row fail: keys that the model does not know, a key twice, a
+        group of nothing.
+        """
+        found = cls(model, tuple(sweep_values(text) for text in axes), tuple(changes), **question)
+        keys = [key for key, _ in found.axes]
+        for key in keys:
+            if keys.count(key) > 1 or key in dict(changes):
+                raise SpecError(f"{spelt(key)} must be given once, by --sweep or by --set; it is given twice.")
+        rows = prod(len(values) for _, values in found.axes)
+        if rows > MOST_ROWS:
+            raise SpecError(f"--sweep must give at most {MOST_ROWS} rows; got {rows}.")
+        check_accuracy(found.accuracy)
+        first = edit(model, found.changes_of(tuple(values[0] for _, values in found.axes)))
+        for group in found.groups:
+            regions_of(first, group)
+        return found
+
+    def changes_of(self, values: Values) -> dict[str, str]:
+        """Everything that is other than in the file in the row of these values."""
+        return dict(self.changes) | dict(zip((key for key, _ in self.axes), values, strict=True))
 
     def fingerprint(self) -> str:
         """Changes with anything that changes a result."""
-        text = json.dumps(
-            [write_text(self.model), self.axes, self.groups, self.points, self.accuracy, self.open_boundary]
-        )
-        return sha256(text.encode()).hexdigest()
+        question = [self.axes, self.changes, self.groups, self.points, self.accuracy, self.open_boundary]
+        return sha256(json.dumps([write_text(self.model), *question]).encode()).hexdigest()
 
-    def grid(self) -> list[tuple[str, ...]]:
+    def grid(self) -> list[Values]:
         return list(product(*(values for _, values in self.axes)))
 
 
-Row = dict[str, Any]
-Done = Callable[[int, int], None]
-
-
 def run_sweep(
-    sweep: ModelSweep, folder: Path | str, workers: int | None = None, force: bool = False, done: Done | None = None
+    sweep: ModelSweep,
+    folder: Path | str,
+    workers: int | None = None,
+    force: bool = False,
+    progress: Report | None = None,
 ) -> tuple[Path, list[Row]]:
     """Compute every row that the folder does not hold yet; the table's path and all rows in grid order.
 
-    done : told how many rows of how many there are after each. A value that cannot be solved is a row with its reason.
-    A row is on the disk before it counts, so that a kill costs at most those in flight. Raises OutputError where the
-    folder cannot be written or holds another sweep that ``force`` does not give up.
+    A value that cannot be solved is a row with its reason. A row is on the disk before it counts, so that a kill costs
+    at most those in flight; one whose process crashed is tried again by the next run. Raises OutputError where the
+    folder cannot be written, where another run is at work in it, or where it holds something else that ``force`` does
+    not give up; then everything is as it was.
     """
-    place = Path(folder)
-    grid = sweep.grid()
-    known = _opened(place, sweep.fingerprint(), force)
+    place, grid = Path(folder), sweep.grid()
+    lock, journal, known = _open(place, sweep.fingerprint(), force)
+    known = {values: row for values in grid if (row := known.get(values)) is not None}
     missing = [values for values in grid if values not in known]
-    keys = [key for key, _ in sweep.axes]
-    if done is not None:
-        done(len(grid) - len(missing), len(grid))
-    with (place / JOURNAL).open("ab") as journal, local_executor(workers) as executor:
-        for outcome in executor.run(_row, [(sweep, dict(zip(keys, values, strict=True))) for values in missing]):
+    reused, begin = len(known), monotonic()
+    with lock, journal, local_executor(workers) as executor:
+        _tell(progress, known, len(grid), reused, begin)
+        for outcome in executor.run(_row, [(sweep, values) for values in missing]):
             values = missing[outcome.index]
-            row = outcome.value if outcome.value is not None else {"status": "failed", "reason": outcome.failure}
-            known[values] = row
-            journal.write(json.dumps([values, row], allow_nan=False).encode() + b"\n")
-            journal.flush()
-            os.fsync(journal.fileno())
-            if done is not None:
-                done(len(known), len(grid))
-    rows = [dict(zip(keys, values, strict=True)) | known[values] for values in grid]
-    return write_atomic(place / TABLE, table(rows)), rows
+            if outcome.value is None:
+                known[values] = {"status": "failed", "reason": outcome.failure}
+            else:
+                known[values] = outcome.value
+                journal.write(json.dumps([values, outcome.value], allow_nan=False).encode() + b"\n")
+                journal.flush()
+                os.fsync(journal.fileno())
+            _tell(progress, known, len(grid), reused, begin)
+        keys = [key for key, _ in sweep.axes]
+        rows = [dict(zip(keys, values, strict=True)) | known[values] for values in grid]
+        return write_atomic(place / TABLE, table(rows)), rows
+
+
+def _tell(progress: Report | None, known: Mapping[Values, Row], total: int, reused: int, begin: float) -> None:
+    if progress is None:
+        return
+    failed = sum(row["status"] != "ok" for row in known.values())
+    rate = (len(known) - reused) / max(monotonic() - begin, 1e-9) if len(known) > reused else None
+    left = None if rate is None else (total - len(known)) / rate
+    progress(Progress("sweep", len(known), total, reused, failed, None, None, None, rate, left))
 
 
 def table(rows: Sequence[Row]) -> str:
@@ -102,53 +146,85 @@ def table(rows: Sequence[Row]) -> str:
     return text.getvalue()
 
 
-def _opened(place: Path, fingerprint: str, force: bool) -> dict[tuple[str, ...], Row]:
-    """The rows that the folder holds of this sweep; a torn last line is cut away."""
-    path = place / JOURNAL
+def _open(place: Path, fingerprint: str, force: bool) -> tuple[Journal, BinaryIO, dict[Values, Row]]:
+    """The lock, the file to append rows to, and the rows that it holds of this sweep."""
+    made: list[Path] = []
     try:
+        if place.exists() and not place.is_dir():
+            raise OutputError(f"{place} must be a folder to write the rows in; it is a file.")
+        made = [folder for folder in (place, *place.parents) if not folder.exists()]
         place.mkdir(parents=True, exist_ok=True)
-        lines = path.read_bytes().split(b"\n") if path.exists() else []
-        head = _json(lines[0]) if lines else None
-        if not isinstance(head, dict) or head.get("sweep") != fingerprint:
-            others = sorted(entry.name for entry in place.iterdir() if not entry.name.startswith("."))
-            if others and not force:
-                raise OutputError(
-                    f"{place} must be empty or hold this very sweep; it holds others' results, such as {others[0]} "
-                    "(see --force)."
-                )
-            write_atomic(path, json.dumps({"sweep": fingerprint}) + "\n")
-            return {}
-        rows = [row for row in (_json(line) for line in lines[1:-1]) if isinstance(row, list) and len(row) == 2]
-        text = [json.dumps(head), *(json.dumps(row) for row in rows)]
-        write_atomic(path, "\n".join(text) + "\n")
-    except OSError as error:
-        raise OutputError(f"{place} cannot be written: {error.strerror or error}.") from error
-    return {tuple(values): row for values, row in rows}
+        lock = Journal(place / JOURNAL, read=False)
+        try:
+            return lock, *_rows(place, json.dumps({"sweep": fingerprint}).encode() + b"\n", force)
+        except BaseException:
+            lock.discard()
+            raise
+    except BaseException as error:
+        for folder in made:
+            with contextlib.suppress(OSError):  # not made after all, or no longer empty
+                folder.rmdir()
+        if isinstance(error, OSError):
+            raise OutputError(f"{place} cannot be written: {error.strerror or error}.") from error
+        raise
 
 
-def _json(line: bytes) -> Any:
+def _rows(place: Path, head: bytes, force: bool) -> tuple[BinaryIO, dict[Values, Row]]:
+    """The journal, begun anew or with its torn last line cut away, and its rows.
+
+    It is changed in place, since the lock is the file's, not its name's.
+    """
+    path = place / JOURNAL
+    data = path.read_bytes()
+    if not data.startswith(head):
+        if not force:
+            _refuse_others(place, torn=head.startswith(data))
+        (place / TABLE).unlink(missing_ok=True)  # of the other sweep
+        data = head
+        with path.open("r+b") as file:
+            file.truncate(0)
+            file.write(head)
+            os.fsync(file.fileno())
+    whole = data[: data.rfind(b"\n") + 1]
+    os.truncate(path, len(whole))
+    return path.open("ab"), dict(row for line in whole.splitlines()[1:] if (row := _recorded(line)) is not None)
+
+
+def _refuse_others(place: Path, torn: bool) -> None:
+    """Raise OutputError where the folder is not free. torn : the journal is no more than the start of our own."""
+    others = sorted(entry.name for entry in place.iterdir() if not entry.name.startswith("."))
+    if torn:
+        others.remove(JOURNAL)
+    if others:
+        whose = "the rows of another sweep" if JOURNAL in others else f"other files, such as {others[0]}"
+        raise OutputError(f"{place} must be empty or hold rows of this very sweep; it holds {whose} (see --force).")
+
+
+def _recorded(line: bytes) -> tuple[Values, Row] | None:
+    """Values and row of a line; None for one that is damaged."""
     try:
-        return json.loads(line)
-    except ValueError:
+        values, row = json.loads(line)
+        return (tuple(map(str, values)), row) if row["status"] in ("ok", "failed") else None
+    except (ValueError, TypeError, KeyError, RecursionError):
         return None
 
 
-def _row(task: tuple[ModelSweep, Mapping[str, str]]) -> Row:
+def _row(task: tuple[ModelSweep, Values]) -> Row:
     """One row's figures, or why there are none."""
-    from fluxbore.solution_messages import solution_plain
+    from fluxbore.solution_messages import finite, solution_plain
     from fluxbore.solving import solve
 
-    sweep, changes = task
+    sweep, values = task
     try:
         solved = solve(
             sweep.model,
             groups=sweep.groups,
             points=sweep.points,
             accuracy=sweep.accuracy,
-            changes=changes,
+            changes=sweep.changes_of(values),
             open_boundary=sweep.open_boundary,
         )
-        plain = solution_plain(solved, sweep.groups, sweep.points)
+        plain = finite(solution_plain(solved, sweep.groups, sweep.points))
     except FluxboreError as error:
         return {"status": "failed", "reason": str(error)}
     status = plain["convergence"]["status"]
@@ -177,6 +253,7 @@ def _figures(plain: Mapping[str, Any]) -> Iterator[tuple[str, float]]:
     for number, point in enumerate(plain["points"], start=1):
         yield f"point.{number}.B.{first}", point["B"][0]
         yield f"point.{number}.B.{second}", point["B"][1]
+        yield f"point.{number}.A", point["A"]
     yield "unknowns", plain["mesh"]["unknowns"]
     if plain["accuracy"]["estimate"] is not None:
         yield "estimate", plain["accuracy"]["estimate"]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from math import pi
+from math import isfinite, pi
 from typing import Any
 
 import numpy as np
@@ -106,6 +106,15 @@ def warnings(solution: FemmSolution, forces: dict[int, GroupForce]) -> list[str]
     return found
 
 
+def finite(value: Any) -> Any:
+    """The value with None for what is not finite, of which JSON knows nothing."""
+    if isinstance(value, float):
+        return value if isfinite(value) else None
+    if isinstance(value, Mapping):
+        return {name: finite(item) for name, item in value.items()}
+    return [finite(item) for item in value] if isinstance(value, (list, tuple)) else value
+
+
 def solution_text(plain: Mapping[str, Any]) -> str:
     """A few lines for a person, of `solution_plain`'s object and whatever else was asked."""
     axisymmetric = plain["problem"]["type"] == "axisymmetric"
@@ -119,7 +128,11 @@ def solution_text(plain: Mapping[str, Any]) -> str:
         f"energy {plain['energy']:.6g} J, coenergy {plain['coenergy']:.6g} J",
     ]
     for name, circuit in plain["circuits"].items():
-        lines.append(f"circuit {name}: {circuit['current']:g} A, flux linkage {circuit['flux_linkage']:.6g} Wb")
+        own = plain["inductances"].get(name, {}).get(name)
+        lines.append(
+            f"circuit {name}: {circuit['current']:g} A, flux linkage {circuit['flux_linkage']:.6g} Wb"
+            + ("" if own is None else f", incremental inductance {own:.6g} H")
+        )
     for number, group in plain["groups"].items():
         first, second = group["force"]
         words = f"axial {second:.6g} N" if axisymmetric else f"x {first:.6g} N, y {second:.6g} N"

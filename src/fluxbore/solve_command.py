@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 import argparse
+import re
 from collections.abc import Callable, Sequence
-from itertools import pairwise
+from dataclasses import asdict
 from math import isfinite
 from pathlib import Path
+from tempfile import TemporaryFile
 from typing import TYPE_CHECKING, Any
 
-from fluxbore.design.errors import SpecError, shown
+from fluxbore.design.errors import OutputError, SpecError, shown
 
 if TYPE_CHECKING:
     from fluxbore.fem.femm_solution import FemmSolution
-    from fluxbore.fem.paths import Path as FieldPath
 
-_PLACES = ("--point", "--line")
+_SIGNED = ("--point", "--line", "--accuracy", "--group")
+"""Options whose value may begin with a minus."""
 
 FILES = {
     "vtu": "the field as a VTK file, for ParaView",
@@ -27,28 +29,40 @@ FILES = {
 """Options that name a file, and what is in it."""
 
 
-def add_to(parser: argparse.ArgumentParser) -> None:
-    """Give a parser the options."""
-    parser.add_argument("model", metavar="MODEL", help="FEMM magnetics file (.fem)")
+def add_to(parser: argparse.ArgumentParser, path: Callable[[str], str], count: Callable[[str], int]) -> None:
+    """Give a parser the options. path, count : what reads the name of a file or folder and a number of processes."""
+    parser.add_argument("model", metavar="MODEL", type=path, help="FEMM magnetics file (.fem)")
 
     def several(name: str, metavar: str, text: str, kind: Callable[[str], Any] = str) -> None:
         parser.add_argument(name, metavar=metavar, type=kind, action="append", default=[], help=text)
 
-    several("--group", "N", "force and torque on the labels of group N", int)
+    several("--group", "N", "force and torque on the labels of group N", _group)
     several("--point", "X,Y", "A, B and H there, in the file's unit", _pair)
-    several("--line", "X,Y:X,Y[:...][:N]", "line integrals, and with --csv N samples (201), along it", _line)
+    several(
+        "--line",
+        "X,Y:X,Y[:N]",
+        "line integrals through these and more places, the last one X,Y@DEGREES by an arc; with --csv of N samples",
+    )
     several("--set", "KEY=VALUE", "another value, such as circuit.coil.current=3 or group.1.displacement.z=-2")
-    several("--sweep", "KEY=FIRST:LAST:STEP", "a row for every value, into the folder of -o")
-    parser.add_argument("--accuracy", metavar="P%", type=_percent, help="of the estimated errors; default: 0.1%%")
+    several(
+        "--sweep",
+        "KEY=FIRST:LAST:STEP",
+        "a row for every value, or of KEY=VALUE,VALUE,..., into the folder of -o; given twice, for all combinations",
+    )
+    parser.add_argument(
+        "--accuracy", metavar="P%", type=_percent, help="of the estimated errors; default: 0.1%% or a modest mesh"
+    )
     parser.add_argument(
         "--open-boundary", action="store_true", help="all of space around the model in place of its outer boundary"
     )
     parser.add_argument("--integrals", action="store_true", help="block integrals, of each --group or of all")
     for name, text in FILES.items():
-        parser.add_argument(f"--{name}", metavar="FILE", help=text)
+        parser.add_argument(f"--{name}", metavar="FILE", type=path, help=text)
     parser.add_argument("--full", action="store_true", help="draw the whole model, not what is of interest in it")
-    parser.add_argument("-o", "--output", metavar="DIR", help="folder for the rows of --sweep; a run goes on in it")
-    parser.add_argument("--workers", metavar="N", type=_count, help="processes for --sweep; default: one a core")
+    parser.add_argument(
+        "-o", "--output", metavar="DIR", type=path, help="folder for the rows of --sweep; a run goes on in it"
+    )
+    parser.add_argument("--workers", metavar="N", type=count, help="processes for --sweep; default: one a core")
     parser.add_argument("--force", action="store_true", help="replace the rows of another sweep in DIR")
     parser.add_argument("--json", action="store_true", help="print JSON")
     parser.add_argument("--quiet", action="store_true", help="no progress on stderr")
@@ -58,44 +72,39 @@ def joined(arguments: Sequence[str]) -> list[str]:
     """The command line with `--point -5,3` as `--point=-5,3`, which the parser would take for another option."""
     found: list[str] = []
     for text in arguments:
-        if found and found[-1] in _PLACES and text.startswith("-"):
+        if found and found[-1] in _SIGNED and re.match(r"-[.\d]", text):
             found[-1] += f"={text}"
         else:
             found.append(text)
     return found
 
 
-def solve(options: argparse.Namespace, show: Callable[[str], None]) -> tuple[bool, dict[str, Any] | str]:
-    """Do what the options ask. Whether the result is valid, and what is to be printed: an object or a text.
-
-    show : takes lines of progress.
-    """
+def solve(options: argparse.Namespace) -> tuple[bool, dict[str, Any] | str]:
+    """Do what the options ask. Whether the result is valid, and what is to be printed: an object or a text."""
     from fluxbore import solving
-    from fluxbore.solution_messages import solution_plain, solution_text
+    from fluxbore.solution_messages import finite, solution_plain, solution_text
 
     _check(options)
     if options.sweep:
-        return _sweep(options, show)
+        return _sweep(options)
+    groups, points = tuple(dict.fromkeys(options.group)), tuple(options.point)
     solution = solving.solve(
         options.model,
-        groups=tuple(dict.fromkeys(options.group)),
-        points=tuple(options.point),
+        groups=groups,
+        points=points,
         accuracy=options.accuracy,
-        changes=assignments(options.set, "circuit.coil.current=3"),
+        changes=_changes(options.set),
         open_boundary=options.open_boundary,
     )
-    plain = solution_plain(solution, tuple(dict.fromkeys(options.group)), tuple(options.point))
-    extra: dict[str, Any] = {}
+    plain = solution_plain(solution, groups, points)
     if options.line:
-        extra["lines"] = [_line_plain(solution, corners) for corners, _ in options.line]
+        plain["lines"] = [_line_plain(solution, text) for text in options.line]
     if options.integrals:
-        extra["integrals"] = _integrals(solution, options.group)
-    files = _write(solution, options)
-    if files:
-        extra["files"] = files
-    plain.update(extra)
+        plain["integrals"] = _integrals(solution, groups)
+    if files := _write(solution, options):
+        plain["files"] = files
     valid = solution.solution.convergence.converged
-    return valid, plain if options.json else solution_text(plain)
+    return valid, finite(plain) if options.json else solution_text(plain)
 
 
 def assignments(items: Sequence[str], example: str) -> dict[str, str]:
@@ -109,64 +118,90 @@ def assignments(items: Sequence[str], example: str) -> dict[str, str]:
     return found
 
 
+def _changes(items: Sequence[str]) -> dict[str, str]:
+    """The values of `--set` by key; an equals sign within quotes is part of a name."""
+    from fluxbore.fem.femm_setting import setting
+
+    return dict(setting(item) for item in items)
+
+
 def _check(options: argparse.Namespace) -> None:
-    """Refuse options that need each other before the work."""
+    """Refuse what cannot be done before the work: options that need each other, files that cannot be written."""
+    named = [name for name in FILES if getattr(options, name)]
+    asked = {
+        "--full": ("--png or --svg", options.full and not (options.png or options.svg)),
+        "-o": ("--sweep", options.output and not options.sweep),
+        "--workers": ("--sweep", options.workers and not options.sweep),
+        "--force": ("--sweep", options.force and not options.sweep),
+        "--sweep": ("a folder for its rows, -o DIR", options.sweep and not options.output),
+    }
+    for name, (needed, missing) in asked.items():
+        if missing:
+            raise SpecError(f"{name} must come with {needed}; got none.")
     if options.csv and len(options.line) != 1:
         raise SpecError(f"--csv must come with one --line; got {len(options.line)}.")
-    if options.sweep and not options.output:
-        raise SpecError("--sweep must come with a folder for its rows, -o DIR; got none.")
-    named = [name for name in FILES if getattr(options, name)]
-    if options.sweep and (named or options.line or options.integrals):
-        raise SpecError("--sweep gives rows of figures; pictures, lines and integrals are of one solution at a time.")
+    alone = [*(f"--{name}" for name in named), *(["--line"] if options.line else [])]
+    alone += ["--integrals"] if options.integrals else []
+    if options.sweep and alone:
+        raise SpecError(f"--sweep must come without {alone[0]}, which is of one solution; got both.")
+    if options.line:
+        from fluxbore.fem.line_text import parse_line
+
+        for text in options.line:
+            parse_line(text, 1.0)
     for name in named:
-        path = Path(getattr(options, name))
-        if path.suffix.lower() != f".{name}":
-            raise SpecError(f"--{name} must name a .{name} file; got {shown(path.name)}.")
-        if not path.parent.is_dir():
-            raise SpecError(f"--{name} must name a file in a folder that exists; got {shown(str(path))}.")
+        _check_file(f"--{name}", f".{name}", Path(getattr(options, name)), Path(options.model))
 
 
-def _sweep(options: argparse.Namespace, show: Callable[[str], None]) -> tuple[bool, dict[str, Any] | str]:
-    from fluxbore.fem.femm_edit import edit
+def _check_file(option: str, suffix: str, path: Path, model: Path) -> None:
+    if path.suffix.lower() != suffix:
+        raise SpecError(f"{option} must name a {suffix} file; got {shown(path.name)}.")
+    if not path.parent.is_dir():
+        raise SpecError(f"{option} must name a file in a folder that exists; got {shown(str(path))}.")
+    if path.is_dir():
+        raise SpecError(f"{option} must name a file; {shown(str(path))} is a folder.")
+    if path.exists() and model.exists() and path.samefile(model):
+        raise SpecError(f"{option} must name another file than the model; got {shown(str(path))} for both.")
+    try:
+        with TemporaryFile(dir=path.parent):
+            pass
+    except OSError as error:
+        raise OutputError(f"{path} cannot be written: {error.strerror or error}.") from error
+
+
+def _sweep(options: argparse.Namespace) -> tuple[bool, dict[str, Any] | str]:
     from fluxbore.fem.femm_reader import read_model
+    from fluxbore.messages import Bar
     from fluxbore.model_sweep import ModelSweep, run_sweep
 
-    model = edit(read_model(options.model), assignments(options.set, "circuit.coil.current=3"))
     sweep = ModelSweep.of(
-        model,
+        read_model(options.model),
         options.sweep,
+        changes=tuple(_changes(options.set).items()),
         groups=tuple(dict.fromkeys(options.group)),
         points=tuple(options.point),
         accuracy=options.accuracy,
         open_boundary=options.open_boundary,
     )
-
-    def done(count: int, total: int) -> None:
-        if not options.quiet:
-            show(f"sweep {count}/{total}")
-
-    path, rows = run_sweep(sweep, options.output, options.workers, options.force, done)
-    solved = sum(row["status"] == "ok" for row in rows)
+    with Bar(options.quiet) as bar:
+        path, rows = run_sweep(sweep, options.output, options.workers, options.force, bar.show)
+    failed = [row for row in rows if row["status"] != "ok"]
+    valid = len(failed) < len(rows)
     if options.json:
-        return solved > 0, {"status": "ok" if solved == len(rows) else "some failed", "rows": rows, "file": str(path)}
-    return solved > 0, f"{solved} of {len(rows)} rows solved: {path}"
+        status = "some failed" if failed and valid else "failed" if failed else "ok"
+        return valid, {"status": status, "rows": rows, "file": str(path)}
+    said = [f"{len(failed)} failed, such as: {failed[0]['reason']}"] if failed else []
+    return valid, "\n".join([f"{len(rows) - len(failed)} of {len(rows)} rows solved: {path}", *said])
 
 
-def _line_plain(solution: FemmSolution, corners: Sequence[tuple[float, float]]) -> dict[str, Any]:
-    from dataclasses import asdict
-
+def _line_plain(solution: FemmSolution, text: str) -> dict[str, Any]:
+    from fluxbore.fem.line_text import parse_line
     from fluxbore.fem.line_values import line_integrals
 
-    found = asdict(line_integrals(solution, _path(solution, corners)))
+    path, _ = parse_line(text, solution.model.metres)
+    found = asdict(line_integrals(solution, path))
     found.pop("errors")  # of the quadrature alone: far below the field's own
-    return {"through": [list(corner) for corner in corners], **found}
-
-
-def _path(solution: FemmSolution, corners: Sequence[tuple[float, float]]) -> FieldPath:
-    from fluxbore.fem.paths import Path as FieldPath
-
-    metres = solution.model.metres
-    return FieldPath.through([(x * metres, y * metres) for x, y in corners])
+    return {"line": text, **found}
 
 
 def _integrals(solution: FemmSolution, groups: Sequence[int]) -> dict[str, Any]:
@@ -174,7 +209,7 @@ def _integrals(solution: FemmSolution, groups: Sequence[int]) -> dict[str, Any]:
 
     if not groups:
         return {"all": block_integrals(solution)}
-    return {str(group): block_integrals(solution, group) for group in dict.fromkeys(groups)}
+    return {str(group): block_integrals(solution, group) for group in groups}
 
 
 def _write(solution: FemmSolution, options: argparse.Namespace) -> list[str]:
@@ -191,11 +226,11 @@ def _write(solution: FemmSolution, options: argparse.Namespace) -> list[str]:
 
         written.append(write_atomic(options.ans, ans_text(solution)))
     if options.csv:
-        from fluxbore.fem.line_values import SAMPLES, line_values
+        from fluxbore.fem.line_text import parse_line
+        from fluxbore.fem.line_values import line_values
 
-        corners, samples = options.line[0]
-        path = _path(solution, corners)
-        written.append(write_atomic(options.csv, line_values(solution, path, samples or SAMPLES).csv()))
+        table = line_values(solution, *parse_line(options.line[0], solution.model.metres))
+        written.append(write_atomic(options.csv, table.csv()))
     for name in (options.png, options.svg):
         if name:
             from fluxbore.reports.flux_plot import flux_plot
@@ -215,28 +250,14 @@ def _pair(text: str) -> tuple[float, float]:
     return x, y
 
 
-def _line(text: str) -> tuple[tuple[tuple[float, float], ...], int | None]:
-    """Corners, and how many samples."""
-    parts = text.split(":")
-    samples = None
-    if parts and "," not in parts[-1]:
-        samples = _count(parts.pop(), 2, 100_000)
-    corners = tuple(_pair(part) for part in parts)
-    if len(corners) < 2 or any(a == b for a, b in pairwise(corners)):
-        raise argparse.ArgumentTypeError(f"must be two or more different places X,Y:X,Y; got {shown(text)}")
-    return corners, samples
-
-
-def _count(text: str, least: int = 1, most: int = 1024) -> int:
-    if not text.isascii() or not text.isdigit() or not least <= int(text) <= most:
-        raise argparse.ArgumentTypeError(f"must be a whole number from {least} to {most}; got {shown(text)}")
+def _group(text: str) -> int:
+    if not re.fullmatch(r"-?\d{1,9}", text, re.ASCII):
+        raise argparse.ArgumentTypeError(f"must be the whole number of a group; got {shown(text)}")
     return int(text)
 
 
 def _percent(text: str) -> float:
-    number = text.strip().removesuffix("%")
     try:
-        value = float(number)
+        return float(text.strip().removesuffix("%")) / 100
     except ValueError:
         raise argparse.ArgumentTypeError(f"must be a percentage such as 0.2%; got {shown(text)}") from None
-    return value / 100

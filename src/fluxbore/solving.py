@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from math import isfinite
 from pathlib import Path
 
-from fluxbore.design.errors import SpecError
+from fluxbore.design.errors import SpecError, shown
 from fluxbore.fem.femm_model import FemmModel
 from fluxbore.fem.femm_reader import read_model
 from fluxbore.fem.femm_solution import FemmSolution, solve_model
@@ -21,7 +21,7 @@ def solve(
     groups: Sequence[int] = (),
     points: Sequence[tuple[float, float]] = (),
     accuracy: float | None = None,
-    changes: Mapping[str, str] | None = None,
+    changes: Mapping[str, str | float] | None = None,
     open_boundary: bool = False,
     max_unknowns: int | None = None,
 ) -> FemmSolution:
@@ -29,24 +29,38 @@ def solve(
 
     model : a `.fem` file or what `read_model` made of it. groups : whose forces are asked for. points : in the file's
     unit, where the field is. accuracy : relative, 0.001 without it. max_unknowns : where refinement ends.
-    changes : other values, as `--set` takes them. open_boundary : put all of space around the model in place of its
-    outer boundary.
+    changes : other values, as `--set` takes them; numbers are in the key's or the file's own unit. open_boundary : put
+    all of space around the model in place of its outer boundary.
 
     Raises FluxboreError with one sentence for whatever is wrong with the file or the question.
     """
-    if accuracy is not None and not (isfinite(accuracy) and TIGHTEST_ACCURACY <= accuracy <= LOOSEST_ACCURACY):
-        raise SpecError(
-            f"accuracy must be from {TIGHTEST_ACCURACY * 100:g} % to {LOOSEST_ACCURACY * 100:g} %; "
-            f"got {accuracy * 100:g} %."
-        )
+    check_accuracy(accuracy)
+    places = _places(points)
     read = model if isinstance(model, FemmModel) else read_model(model)
     if changes:
         from fluxbore.fem.femm_edit import edit
 
-        read = edit(read, changes)
+        read = edit(read, {key: text if isinstance(text, str) else repr(float(text)) for key, text in changes.items()})
     if open_boundary:
         from fluxbore.fem.femm_open import with_open_boundary
 
         read = with_open_boundary(read)
     with one_thread():
-        return solve_model(read, groups, points, accuracy, max_unknowns)
+        return solve_model(read, groups, places, accuracy, max_unknowns)
+
+
+def check_accuracy(accuracy: float | None) -> None:
+    """Raises SpecError for one that is out of reach, or that is none."""
+    if accuracy is not None and not TIGHTEST_ACCURACY <= accuracy <= LOOSEST_ACCURACY:
+        raise SpecError(
+            f"--accuracy must be from {TIGHTEST_ACCURACY * 100:g}% to {LOOSEST_ACCURACY * 100:g}%; "
+            f"got {accuracy * 100:g}%."
+        )
+
+
+def _places(points: Sequence[Sequence[float]]) -> tuple[tuple[float, float], ...]:
+    """Each place once."""
+    for point in points:
+        if len(point) != 2 or not all(isfinite(each) for each in point):
+            raise SpecError(f"A point must be two finite numbers; got {shown(list(point))}.")
+    return tuple(dict.fromkeys((float(x), float(y)) for x, y in points))
