@@ -11,13 +11,13 @@ import fluxbore
 from fluxbore.design.spec_file import template
 
 TOP = Path(__file__).parents[1]
-VERBS = ("design", "evaluate", "export", "load", "optimize", "report", "sweep")
+VERBS = ("design", "evaluate", "export", "load", "optimize", "report", "solve", "sweep")
 
 SCRIPT = """
 from pathlib import Path
 
 import fluxbore
-from fluxbore import Evaluation, FluxboreError, Spec, SweepResult
+from fluxbore import Evaluation, FemmSolution, FluxboreError, Spec, SweepResult
 
 
 def best(path: Path) -> float:
@@ -26,9 +26,11 @@ def best(path: Path) -> float:
     sweeps: tuple[SweepResult, ...] = fluxbore.sweep(spec, fidelity="network", workers=1)
     files: list[Path] = fluxbore.export(spec, "cad")
     page: Path = fluxbore.report(spec, "report.html", picture=False).files[0]
+    solution: FemmSolution = fluxbore.solve("model.fem", groups=[1], changes={"circuit.coil.current": 2.0})
+    pull: tuple[float, float] = solution.force(1).by_stress.force
     found = fluxbore.optimize(spec, "out", workers=2, force=True)
     chosen = fluxbore.design(spec, "out").evaluation
-    print(files, page, found.chosen, sweeps[0].rows[0].values, chosen.performance.force_constant)
+    print(files, page, pull, found.chosen, sweeps[0].rows[0].values, chosen.performance.force_constant)
     return evaluation.performance.force_constant or 0.0
 
 

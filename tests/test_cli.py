@@ -12,7 +12,20 @@ from fluxbore.cli import main
 from fluxbore.design.performance import FIGURES
 from fluxbore.design.spec_file import template
 
-HEAVY = ("numpy", "scipy", "cadquery", "OCP", "matplotlib", "pyvista", "vtk", "nlopt", "jinja2")
+HEAVY = (
+    "numpy",
+    "scipy",
+    "shapely",
+    "netgen",
+    "pyamg",
+    "cadquery",
+    "OCP",
+    "matplotlib",
+    "pyvista",
+    "vtk",
+    "nlopt",
+    "jinja2",
+)
 QUICK = ("--set", "operating_point.positions=1")
 DIVERGE = (*QUICK, "--set", "solver.max_iterations=1")
 
@@ -54,7 +67,9 @@ def test_importing_fluxbore_loads_nothing_heavy():
     assert loaded("import fluxbore\nfluxbore.Spec, fluxbore.FluxboreError, fluxbore.Performance") == set()
 
 
-@pytest.mark.parametrize("line", ["--help", "evaluate --help", "design --help", "--version", "new ipehla", "schema"])
+@pytest.mark.parametrize(
+    "line", ["--help", "evaluate --help", "solve --help", "design --help", "--version", "new ipehla", "schema"]
+)
 def test_help_loads_nothing_heavy(line):
     assert loaded(run(line)) == set()
 

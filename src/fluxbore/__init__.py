@@ -7,9 +7,10 @@ The same words as on the command line, with typed results::
     spec = fluxbore.load("examples/ipehla.toml")
     print(fluxbore.evaluate(spec).performance.force_constant)
     fluxbore.design(spec, "out")
+    print(fluxbore.solve("model.fem", groups=[1]).force(1).by_stress.force)
 
-Every function takes a `Spec` or the path of a specification file, works in SI units, and raises `FluxboreError` with
-one sentence for whatever a person can mend.
+Every function takes a `Spec` or the path of a specification file, `solve` that of a FEMM file; all work in SI units and
+raise `FluxboreError` with one sentence for whatever a person can mend.
 """
 
 from __future__ import annotations
@@ -23,6 +24,7 @@ __version__ = "0.1.0"
 
 __all__ = [
     "Evaluation",
+    "FemmSolution",
     "FluxboreError",
     "Performance",
     "SearchResult",
@@ -34,6 +36,7 @@ __all__ = [
     "load",
     "optimize",
     "report",
+    "solve",
     "sweep",
 ]
 
@@ -42,16 +45,20 @@ if TYPE_CHECKING:
     from fluxbore.design.errors import FluxboreError
     from fluxbore.design.performance import Performance
     from fluxbore.design.spec import Spec
+    from fluxbore.fem.femm_solution import FemmSolution
     from fluxbore.optimize.evaluation import Evaluation
     from fluxbore.optimize.outcome import SearchResult, SweepResult
+    from fluxbore.solving import solve
 
 _HOMES = {
     "FluxboreError": "fluxbore.design.errors",
     "Performance": "fluxbore.design.performance",
     "Spec": "fluxbore.design.spec",
+    "FemmSolution": "fluxbore.fem.femm_solution",
     "Evaluation": "fluxbore.optimize.evaluation",
     "SearchResult": "fluxbore.optimize.outcome",
     "SweepResult": "fluxbore.optimize.outcome",
+    "solve": "fluxbore.solving",
 }
 
 
