@@ -286,9 +286,9 @@ def main() -> int:
             "# Damaged files\n\n"
             f"Written by `python benchmarks/fuzz.py --write`, commit {made}, seed {options.seed},\n"
             f"files {options.first} to {options.first + options.count - 1}. Models of the gallery{files} with one to\n"
-            "three damages each: lines lost, doubled or exchanged, numbers out of range or slightly off, points merged,\n"
-            "lines crossing, labels moved, rubbish. Each is read, meshed, solved, refined and written as JSON with every\n"
-            "warning an error; seconds are the processor's.\n\n"
+            "three damages each: lines lost, doubled or exchanged, numbers out of range or slightly off, points\n"
+            "merged, lines crossing, labels moved, rubbish. Each is read, meshed, solved, refined and written as\n"
+            "JSON with every warning an error; seconds are the processor's.\n\n"
         )
         PAGE.write_text(head + text + "\n", encoding="utf-8")
     return 3 if any(offends(row) for row in rows) else 0

@@ -11,7 +11,7 @@ from fluxbore.fem.faces import faces
 from fluxbore.fem.outline import Outline
 from fluxbore.fem.outline_check import cleaned, pieces
 
-_LIMIT = 60_000
+_LIMIT = 50_000
 """Of triangles, as the mesh's: what telling close curves apart may cost."""
 
 

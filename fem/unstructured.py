@@ -29,8 +29,8 @@ GRADINGS = (0.3, 0.2, 0.25, 0.4)
 """Growth of the sides with the distance from shorter ones, and what to try next if that gives slender triangles."""
 
 
-LIMIT = 60_000
-"""Triangles: as fine as four times as many straight ones, and a nonlinear problem on them takes some 20 s."""
+LIMIT = 50_000
+"""Triangles: as fine as four times as many straight ones, and a nonlinear problem on them takes some 15 s."""
 
 
 def triangulate(outline: Outline, limit: int = LIMIT) -> Triangulation:
