@@ -18,6 +18,7 @@ from typing import Any
 
 import numpy as np
 
+from fluxbore.fem.conjugate_gradients import Iterated, conjugate_gradients
 from fluxbore.fem.linear import Factor, Floats, Pattern, SingularMatrixError, SuperLU
 
 STRENGTH = 0.05
@@ -36,6 +37,9 @@ class Multigrid:
 
     LIMIT = 150
     """Iterations; four times as many as the most stretched meshes need."""
+
+    BORROWED_LIMIT = 25
+    """Iterations on a neighbour's hierarchy after which one of its own is cheaper."""
 
     def __init__(
         self, pattern: Pattern, values: Floats, rescue: bool = False, neighbour: Multigrid | None = None
@@ -56,42 +60,50 @@ class Multigrid:
 
         Raises SingularMatrixError where the iteration does not converge and nothing steps in.
         """
+        return self.within(right, self.TOLERANCE)
+
+    def within(self, right: Floats, tolerance: float) -> Floats:
+        """x with |right − A x| <= tolerance |right|, tolerance at least `TOLERANCE`; right is (n,) or (n, k).
+
+        Raises SingularMatrixError as `solve` does.
+        """
+        if right.ndim == 2:
+            return np.column_stack([self.within(column, tolerance) for column in right.T])
+        tolerance = max(tolerance, self.TOLERANCE)
         if self._direct is not None:
             return self._direct.solve(right)
-        try:
-            return self._iterate(right)
-        except SingularMatrixError:
-            if not self._rescue and not self._borrowed:
-                raise
-        if self._borrowed:
-            self._cycle, self._borrowed = _aggregates(self._matrix), False
-            return self.solve(right)
-        self._direct = SuperLU(self._pattern, self._values)
-        return self._direct.solve(right)
-
-    def _iterate(self, right: Floats) -> Floats:
-        if right.ndim == 2:
-            return np.column_stack([self._iterate(column) for column in right.T])
         x = np.zeros(right.size)
-        r = np.array(right, dtype=float)
-        goal = self.TOLERANCE * float(np.linalg.norm(r))
-        direction, before = x, 1.0
-        for iteration in range(self.LIMIT):
-            self.iterations = iteration
-            if float(np.linalg.norm(r)) <= goal:
-                return x
-            z = np.asarray(self._cycle @ r)
-            now = float(r @ z)
-            direction = z if iteration == 0 else z + (now / before) * direction
-            image = self._matrix @ direction
-            curvature = float(direction @ image)
-            if not (now > 0 and curvature > 0):
-                raise SingularMatrixError("the matrix is not positive definite")
-            step = now / curvature
-            x += step * direction
-            r -= step * image
-            before = now
+        self.iterations = 0
+        if self._borrowed:
+            found = self._iterate(right, tolerance, self.BORROWED_LIMIT, prospects=True)
+            if found.reached:
+                return found.x
+            self._cycle, self._borrowed = _aggregates(self._matrix), False
+            if found.definite:
+                size = float(np.linalg.norm(found.residual))
+                x, tolerance = found.x, min(tolerance * float(np.linalg.norm(right)) / size, 1.0)
+                right = found.residual
+        found = self._iterate(right, tolerance, self.LIMIT)
+        if found.reached:
+            return x + found.x
+        if self._rescue:
+            self._direct = SuperLU(self._pattern, self._values)
+            return x + self._direct.solve(right)
+        if not found.definite:
+            raise SingularMatrixError("the matrix is not positive definite")
         raise SingularMatrixError(f"multigrid did not converge in {self.LIMIT} iterations")
+
+    def _iterate(self, right: Floats, tolerance: float, limit: int, prospects: bool = False) -> Iterated:
+        found = conjugate_gradients(
+            lambda x: np.asarray(self._matrix @ x),
+            lambda r: np.asarray(self._cycle @ r),
+            right,
+            tolerance,
+            limit,
+            prospects,
+        )
+        self.iterations += found.iterations
+        return found
 
 
 def _rows(pattern: Pattern, values: Floats) -> Any:

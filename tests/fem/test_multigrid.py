@@ -201,3 +201,29 @@ def test_near_numbering_is_a_numbering_that_brings_neighbours_together(block: Ca
     assert np.array_equal(np.sort(place), np.arange(nodes))
     before, after = np.ptp(elements, axis=1).max(), np.ptp(place[elements], axis=1).max()
     assert after < 6 * np.sqrt(nodes) < before / 4
+
+
+def test_rough_solutions_cost_less(block: Callable[..., MappedMesh]) -> None:
+    """Catches a tolerance that is not kept, or not made use of."""
+    mesh = shaken(block(24), 7)
+    pattern, values = mesh.topology.pattern, matrix_with_iron(mesh)
+    hierarchy, right = Multigrid(pattern, values), noise(pattern)
+    hierarchy.solve(right)
+    full = hierarchy.iterations
+    rough = hierarchy.within(right, 1e-2)
+    assert np.linalg.norm(pattern.multiply(values, rough) - right) <= 1e-2 * np.linalg.norm(right)
+    assert hierarchy.iterations < full / 2
+
+
+def test_a_hierarchy_that_no_longer_serves_is_replaced(block: Callable[..., MappedMesh]) -> None:
+    """Catches what was gained before the change being lost or counted twice: the tolerance is the whole's."""
+    mesh = shaken(block(24), 8)
+    pattern, values = mesh.topology.pattern, matrix_with_iron(mesh)
+    parts = kernel(mesh)
+    air = pattern.assemble(stiffness(parts.curl, parts.weight))
+    first = Multigrid(pattern, air)
+    other, right = first.renewed(values), noise(pattern)
+    for tolerance in (1e-3, 1e-8):
+        found = other.within(right, tolerance)
+        assert np.linalg.norm(pattern.multiply(values, found) - right) <= 1.001 * tolerance * np.linalg.norm(right)
+    assert other._cycle is not first._cycle

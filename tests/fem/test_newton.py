@@ -1,14 +1,21 @@
 """Newton's iteration: order, the tangent as a derivative, failures as values, starts near and far."""
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from fluxbore.fem.linear import Factor, SingularMatrixError
+from fluxbore.design.bh_curve import BHCurve
+from fluxbore.design.materials import SoftIron, lookup, standard
+from fluxbore.fem import linear
+from fluxbore.fem.conductors import Conductor, circuit
+from fluxbore.fem.linear import Factor, Method, SingularMatrixError, Tangents
 from fluxbore.fem.magnetostatics import Settings, System, solve
-from fluxbore.fem.newton import newton
-from fluxbore.fem.problem import Circuit, MagneticMaterial
+from fluxbore.fem.mapped import MappedMesh
+from fluxbore.fem.newton import ROUGHEST, Convergence, newton
+from fluxbore.fem.problem import Circuit, MagneticMaterial, Problem
+from fluxbore.fem.reluctivity import reluctivity_curve
 from fluxbore.fem.tubular import TubularSolution
 
 
@@ -183,6 +190,92 @@ def test_assembly_is_the_sum_of_all_elements(mid_stroke: TubularSolution) -> Non
     nu = np.array(
         [m.reluctivity if m.curve is None else m.curve.reluctivity(np.zeros(1))[0][0] for m in problem.materials]
     )[problem.mesh.region]
-    whole = system.pattern.assemble(stiffness(system.kernel.curl, system.kernel.weight * nu[:, None]))
+    matrices = stiffness(system.kernel.curl, system.kernel.weight * nu[:, None])
+    if problem.edges is not None:
+        np.add.at(matrices, problem.edges.elements, problem.edges.matrices)
+    whole = system.pattern.assemble(matrices)
     values = system.tangent_values(np.zeros(system.inner.size))
     assert np.abs(values - whole).max() < 1e-12 * np.abs(whole).max()
+
+
+def magnetised_bar(grid: MappedMesh, current: float) -> System:
+    """Steel that carries its own current, to beyond saturation: the hardest start from no field."""
+    steel = lookup("1010", "iron", standard(), SoftIron).curve
+    assert isinstance(steel, BHCurve)
+    coil = circuit(grid.mesh, "bar", [Conductor(0, 1 / 0.02)], current)
+    return System(Problem(grid.mesh, (MagneticMaterial(curve=reluctivity_curve(steel)),), (coil,)))
+
+
+def steps(system: System, method: Method) -> tuple[np.ndarray, Convergence]:
+    """Newton's with neighbouring factors."""
+    tangents = Tangents(system.pattern, system.tangent_values, method)
+    start, scale = np.zeros(system.inner.size), float(np.linalg.norm(system.load))
+    x, convergence, _ = newton(system.residual, tangents, start, scale, 1e-8, 60)
+    return x, convergence
+
+
+def test_steps_do_not_grow_with_the_mesh(block: Callable[..., MappedMesh]) -> None:
+    """Catches a line search that allows ever shorter steps on finer meshes, far beyond saturation."""
+    for current in (1e3, 1e5):
+        counts = []
+        for cells in (8, 16, 32):
+            _, convergence = steps(magnetised_bar(block(cells), current), "banded")
+            assert convergence.converged
+            counts.append(convergence.iterations)
+        assert max(counts) <= 16, counts
+        assert counts[2] <= counts[1] + 4, counts
+
+
+@pytest.mark.parametrize("method", ["superlu", "multigrid"])
+def test_neighbouring_factors_lead_to_the_same_field(
+    block: Callable[..., MappedMesh], method: Method, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Catches steps too rough to converge, a field that differs by them, and a factorisation at every step."""
+    system = magnetised_bar(block(24), 1e3)
+    exact, reference = steps(system, "banded")
+    made = []
+    factorise = linear.factorise
+    monkeypatch.setattr(linear, "factorise", lambda *arguments: made.append(1) or factorise(*arguments))
+    found, convergence = steps(system, method)
+    assert convergence.converged
+    assert convergence.iterations <= reference.iterations + 3
+    assert len(made) <= 0.7 * convergence.iterations
+    assert np.abs(found - exact).max() < 1e-8 * np.abs(exact).max()
+
+
+class Rough:
+    """Solves within the tolerance asked for and no better; remembers what was asked."""
+
+    def __init__(self, asked: list[float], slope: float) -> None:
+        self.asked, self.slope = asked, slope
+
+    def solve(self, right: np.ndarray) -> np.ndarray:
+        return self.within(right, 0.0)
+
+    def within(self, right: np.ndarray, tolerance: float) -> np.ndarray:
+        self.asked.append(tolerance)
+        return (1 - tolerance) * right / self.slope
+
+
+def test_rough_steps_become_fine() -> None:
+    """Catches steps that stay rough, which would make the convergence linear, and ones finer than anyone needs."""
+    asked: list[float] = []
+    x, convergence, _ = newton(
+        cubic, lambda x: Rough(asked, 1 + 3 * float(x[0]) ** 2), np.full(1, 3.0), 10.0, 1e-10, 60
+    )
+    assert convergence.converged
+    assert x == pytest.approx(2.0)
+    assert asked[0] == ROUGHEST
+    assert asked[-1] < 1e-3
+    assert min(asked) > 1e-13
+    assert len(asked) <= 7
+
+
+def test_a_linear_problem_takes_one_step() -> None:
+    """Catches a linear problem that is solved roughly, and again."""
+    asked: list[float] = []
+    _, convergence, _ = newton(
+        lambda x: 2 * x - 4, lambda x: Rough(asked, 2.0), np.zeros(1), 4.0, 1e-8, 60, forcing=0.0
+    )
+    assert convergence.converged
+    assert convergence.iterations == 1
