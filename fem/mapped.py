@@ -66,14 +66,21 @@ class MappedMesh:
 
 
 def mapped_mesh(
-    section: CrossSection, r_cells: Mapping[str, Subdivision], z_cells: Mapping[str, Subdivision], refinement: int = 1
+    section: CrossSection,
+    r_cells: Mapping[str, Subdivision],
+    z_cells: Mapping[str, Subdivision],
+    refinement: int = 1,
+    open_rim: bool = False,
 ) -> MappedMesh:
-    """Mesh the cross-section; the cells of each interval follow from its name."""
+    """Mesh the cross-section; the cells of each interval follow from its name.
+
+    open_rim : whether ψ is unknown on the far edges, for a condition that opens them; it is zero there otherwise.
+    """
     r_lines, r_interval = _lines(section.r, r_cells, refinement)
     z_lines, z_interval = _lines(section.z, z_cells, refinement)
     s_nodes = _with_middles(r_lines**2 / 2)
     z_nodes = _with_middles(z_lines)
-    topology, cell_of_element = _grid_topology(z_lines.size - 1, r_lines.size - 1)
+    topology, cell_of_element = _grid_topology(z_lines.size - 1, r_lines.size - 1, open_rim)
     s, z = np.meshgrid(s_nodes, z_nodes)
     region = section.cells[np.ix_(z_interval, r_interval)].ravel()[cell_of_element]
     mesh = Mesh("axisymmetric", np.column_stack((s.ravel(), z.ravel())), region, topology)
@@ -100,12 +107,12 @@ def _with_middles(lines: Floats) -> Floats:
 
 
 @lru_cache(maxsize=16)
-def _grid_topology(nz: int, nr: int) -> tuple[Topology, Ints]:
+def _grid_topology(nz: int, nr: int, open_rim: bool) -> tuple[Topology, Ints]:
     """Two triangles in each of nz x nr cells, diagonals alternating so that no direction is favoured.
 
     Every node of the triangles is a node of the (2 nz + 1) x (2 nr + 1) grid. Nodes are numbered along r first: the
-    domain is long in z, so the matrix has a narrow band. The rim of the grid carries ψ = 0: the axis, and the far
-    boundary, which no flux crosses.
+    domain is long in z, so the matrix has a narrow band. The axis carries ψ = 0, and so do the far edges, which no flux
+    crosses then, unless they are open.
     """
     width = 2 * nr + 1
     i, j = (grid.ravel() for grid in np.meshgrid(np.arange(nz), np.arange(nr), indexing="ij"))
@@ -120,6 +127,8 @@ def _grid_topology(nz: int, nr: int) -> tuple[Topology, Ints]:
     even = ((i + j) % 2 == 0)[:, None, None]
     elements = np.where(even, rising, falling).reshape(-1, 6)
     rows, columns = np.divmod(np.arange((2 * nz + 1) * width), width)
-    inside = (rows > 0) & (rows < 2 * nz) & (columns > 0) & (columns < width - 1)
+    inside = columns > 0
+    if not open_rim:
+        inside &= (rows > 0) & (rows < 2 * nz) & (columns < width - 1)
     freedom = np.where(inside, np.cumsum(inside) - 1, -1)
     return Topology(elements, freedom), np.repeat(np.arange(nz * nr), 2)

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from fluxbore.design.materials import PermanentMagnet
+from fluxbore.fem.asymptotic import open_edges
 from fluxbore.fem.field import along_radius
 from fluxbore.fem.force import axial_force, incremental_thrust
 from fluxbore.fem.linkage import circuits, flux_linkages
@@ -46,7 +47,7 @@ Z_CELLS = {
 
 @dataclass(frozen=True, slots=True, eq=False)
 class TubularSolution:
-    """A machine's field at no current at one position, with the grid it lives on."""
+    """A machine's field at one position, with the grid it lives on."""
 
     position: float
     section: CrossSection
@@ -96,17 +97,41 @@ def solve_positions(
     solved: list[TubularSolution] = []
     for position in positions:
         section = section_at(position)
-        grid = mapped_mesh(section, R_CELLS, Z_CELLS, refinement)
-        problem = Problem(
-            grid.mesh,
-            tuple(magnetic_material(region) for region in section.regions),
-            circuits(grid.mesh, section.coils),
-        )
-        solution = solve(problem, settings, _predicted(solved[-3:], position, grid))
-        solved.append(TubularSolution(position, section, grid, solution))
-        if not solution.convergence.converged:
+        grid = mapped_mesh(section, R_CELLS, Z_CELLS, refinement, open_rim=True)
+        item = _solved(section, grid, position, {}, settings, _predicted(solved[-3:], position, grid))
+        solved.append(item)
+        if not item.convergence.converged:
             break
     return solved
+
+
+def solve_currents(
+    section: CrossSection,
+    position: float,
+    currents: Mapping[str, float],
+    settings: Settings | None = None,
+    refinement: int = 1,
+) -> TubularSolution:
+    """The field at given currents (A) by phase, the others at none, begun from no field."""
+    grid = mapped_mesh(section, R_CELLS, Z_CELLS, refinement, open_rim=True)
+    return _solved(section, grid, position, currents, settings, None)
+
+
+def _solved(
+    section: CrossSection,
+    grid: MappedMesh,
+    position: float,
+    currents: Mapping[str, float],
+    settings: Settings | None,
+    start: Floats | None,
+) -> TubularSolution:
+    """The problem of a meshed cross-section in open air, solved."""
+    materials = tuple(magnetic_material(region) for region in section.regions)
+    coils = tuple(
+        replace(circuit, current=currents.get(circuit.name, 0.0)) for circuit in circuits(grid.mesh, section.coils)
+    )
+    problem = Problem(grid.mesh, materials, coils, edges=open_edges(grid, section.ends))
+    return TubularSolution(position, section, grid, solve(problem, settings, start))
 
 
 def _predicted(before: Sequence[TubularSolution], position: float, grid: MappedMesh) -> Floats | None:

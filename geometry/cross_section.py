@@ -84,6 +84,12 @@ class CrossSection:
     rectangles: tuple[Rectangle, ...]
     force_annulus: tuple[float, float]
 
+    @property
+    def ends(self) -> tuple[float, float]:
+        """z (m) between which all iron, magnets and coils lie; beyond is air."""
+        z = [*(z for part in self.rectangles for z in part.z), *(z for coil in self.coils for z in coil.z)]
+        return min(z), max(z)
+
 
 AIR = Region("air", None)
 

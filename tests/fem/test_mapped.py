@@ -13,6 +13,7 @@ from fluxbore.fem.element import kernel
 from fluxbore.fem.mapped import MappedMesh, Subdivision, mapped_mesh
 from fluxbore.fem.mesh import Mesh
 from fluxbore.fem.tubular import R_CELLS, Z_CELLS
+from fluxbore.geometry.cross_section import Breakpoints, CrossSection
 from fluxbore.geometry.hybrid import cross_section
 
 
@@ -59,6 +60,24 @@ def test_only_the_rim_is_prescribed(block: Callable[..., MappedMesh]) -> None:
     assert np.array_equal(mesh.topology.freedom < 0, rim)
     assert mesh.topology.unknowns == np.count_nonzero(~rim)
     assert np.array_equal(mesh.topology.freedom[mesh.topology.nodes_of_freedom], np.arange(mesh.topology.unknowns))
+
+
+def test_an_open_rim_is_unknown_but_for_the_axis(block: Callable[..., MappedMesh]) -> None:
+    """Catches an axis that floats, and far edges that stay at zero."""
+    closed = block(3)
+    section = CrossSection(
+        Breakpoints((0.0, 0.1), ("r",)),
+        Breakpoints((0.0, 0.2), ("z",)),
+        (),
+        np.zeros((1, 1), dtype=int),
+        (),
+        (),
+        (0, 0),
+    )
+    mesh = mapped_mesh(section, {"r": Subdivision(3)}, {"z": Subdivision(3)}, open_rim=True).mesh
+    assert np.array_equal(mesh.elements, closed.mesh.elements)
+    assert np.array_equal(mesh.topology.freedom < 0, mesh.nodes[:, 0] == 0)
+    assert mesh.topology.unknowns == np.count_nonzero(mesh.nodes[:, 0] > 0)
 
 
 def test_positions_are_radii(block: Callable[..., MappedMesh]) -> None:

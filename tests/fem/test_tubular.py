@@ -15,6 +15,7 @@ from fluxbore.fem.tubular import (
     demagnetised_fraction,
     magnetic_material,
     shell_flux_density,
+    solve_currents,
     stray_field,
     tube_flux_density,
 )
@@ -101,3 +102,13 @@ def test_materials_as_the_solver_sees_them(spec: Spec) -> None:
     assert magnet.reluctivity == pytest.approx(VACUUM_RELUCTIVITY / 1.05)
     iron = magnetic_material(Region("yoke", LIBRARY["1010"]))
     assert iron.curve is magnetic_material(Region("ring", LIBRARY["1010"])).curve, "one spline for both"
+
+
+def test_currents_against_the_thrust_constants(mid_stroke: TubularSolution) -> None:
+    """Catches a current on another phase, or one that is not applied: 0.01 A against the incremental constants."""
+    position, section = mid_stroke.position, mid_stroke.section
+    idle = solve_currents(section, position, {})
+    assert idle.solution.psi == pytest.approx(mid_stroke.solution.psi, abs=1e-9 * np.abs(idle.solution.psi).max())
+    for k, phase in enumerate("UVW"):
+        ahead, behind = (solve_currents(section, position, {phase: i}).cogging_force() for i in (0.01, -0.01))
+        assert (ahead - behind) / 0.02 == pytest.approx(mid_stroke.thrust_constants()[k], rel=1e-3, abs=1e-4)
