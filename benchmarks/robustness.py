@@ -177,8 +177,7 @@ def lines(found: Sequence[Run]) -> list[str]:
     failed = [run for run in found if run.status != "converged"]
     designs, bad = len({run.seed for run in found}), len({run.seed for run in failed})
     out = [
-        f"{designs} designs, {len(found)} solutions: "
-        + ", ".join(f"{n} {status}" for status, n in count.most_common()),
+        f"{designs} designs, {len(found)} solutions: {outcomes}.\n",
         f"Designs that failed: {bad}.",
         "",
         "| | least | 25 % | median | 75 % | 95 % | most |",
