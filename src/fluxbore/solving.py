@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from math import isfinite
 from pathlib import Path
 
-from fluxbore.design.errors import SpecError, shown
+from fluxbore.design.errors import MeshError, SpecError, one_line, shown
 from fluxbore.fem.femm_model import FemmModel
 from fluxbore.fem.femm_reader import read_model
 from fluxbore.fem.femm_solution import FemmSolution, solve_model
@@ -37,16 +37,27 @@ def solve(
     check_accuracy(accuracy)
     places = _places(points)
     read = model if isinstance(model, FemmModel) else read_model(model)
-    if changes:
-        from fluxbore.fem.femm_edit import edit
+    try:
+        if changes:
+            from fluxbore.fem.femm_edit import edit
 
-        read = edit(read, {key: text if isinstance(text, str) else repr(float(text)) for key, text in changes.items()})
-    if open_boundary:
-        from fluxbore.fem.femm_open import with_open_boundary
+            read = edit(
+                read, {key: value if isinstance(value, str) else repr(float(value)) for key, value in changes.items()}
+            )
+        if open_boundary:
+            from fluxbore.fem.femm_open import with_open_boundary
 
-        read = with_open_boundary(read)
-    with one_thread():
-        return solve_model(read, groups, places, accuracy, max_unknowns)
+            read = with_open_boundary(read)
+        with one_thread():
+            return solve_model(read, groups, places, accuracy, max_unknowns)
+    except MeshError as error:
+        raise MeshError(_sentence(read, str(error))) from error
+
+
+def _sentence(model: FemmModel, words: str) -> str:
+    """What cannot be meshed, with the file's name: the mesh knows the drawing alone."""
+    file = one_line(Path(model.path).name)
+    return (f"{file}: {words}" if file else words[:1].upper() + words[1:]).removesuffix(".") + "."
 
 
 def check_accuracy(accuracy: float | None) -> None:
