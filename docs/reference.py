@@ -8,6 +8,7 @@ from fluxbore.design.materials import standard
 from fluxbore.design.performance import FIGURES
 from fluxbore.design.spec import KINDS
 from fluxbore.design.units import DIMENSIONS
+from fluxbore.fem.femm_edit import BOUNDARY, CIRCUIT, KIND_OF_BOUNDARY, MATERIAL, POINT
 
 TARGET = Path(__file__).with_suffix(".md")
 
@@ -23,6 +24,63 @@ ALGORITHMS = """
 All are NLopt's. Limits on variables are taken into their bounds. A global algorithm gets the larger part of
 `max_evaluations`, a local search from its best design the rest.
 """
+
+FEMM_UNITS = {
+    "current": "A",
+    "potential": "Wb/m",
+    "mu_x": "1",
+    "mu_y": "1",
+    "coercivity": "A/m",
+    "current_density": "MA/m^2",
+    "conductivity": "MS/m",
+    "fill": "1",
+    "a0": "Wb/m",
+    "a1": "Wb/m per unit of length",
+    "a2": "Wb/m per unit of length",
+    "phase": "degrees",
+    "c0": "1/H",
+    "c1": "A/m",
+}
+"""Of a bare number, by the last word of a key."""
+
+FEMM_TEXT = """
+For `--set KEY=VALUE` and `--sweep` of `fluxbore solve`. NAME is a name in the file, with its spaces and dots as they
+are; one with an equals sign is put in quotes. A value is a bare number in the unit below, or a number with a unit of
+its own where there is one (see Units; current densities in A/m^2, A/mm^2, MA/m^2, conductivities in S/m, MS/m).
+Changes apply in their order.
+"""
+
+FEMM_GROUPS = """
+| `group.N.magnetisation` | degrees, or a formula | of the labels of group N; x, y, r, z, theta and R in the formula |
+| `group.N.turns` | 1 | of its labels that are in a circuit |
+| `group.N.displacement.x`, `.y` | the file's unit | planar files; from where the file has it |
+| `group.N.displacement.z` | the file's unit | axisymmetric files |
+| `group.N.rotation` | degrees | planar files, counter-clockwise about the origin; magnetisation turns along |
+| `depth` | the file's unit | planar files |
+"""
+
+
+def femm_keys() -> list[str]:
+    """The section on `fluxbore solve --set`."""
+    lines = [
+        "",
+        "## Keys of FEMM files",
+        "",
+        *FEMM_TEXT.strip().splitlines(),
+        "",
+        "| key | unit | of |",
+        "|---|---|---|",
+    ]
+    for kind, properties, note in (
+        ("circuit", CIRCUIT, "a circuit"),
+        ("material", MATERIAL, "a material"),
+        ("boundary", BOUNDARY, "a {} boundary"),
+        ("point", POINT, "a point property"),
+    ):
+        for name in properties:
+            owner = note.format(KIND_OF_BOUNDARY.get(name, "mixed"))
+            lines.append(f"| `{kind}.NAME.{name}` | {FEMM_UNITS[name]} | {owner} |")
+    return [*lines, *FEMM_GROUPS.strip().splitlines()]
 
 
 def page() -> str:
@@ -44,6 +102,7 @@ def page() -> str:
             )
             default = "" if key.default is None else f"{key.show(key.default)}"
             lines.append(f"| `{key.name}` | {key.symbol} | {holds} | {default} | {key.doc} |")
+    lines += femm_keys()
     lines += ["", "## Units", "", "| dimension | units |", "|---|---|"]
     lines += [f"| {item.name} | {', '.join(f'`{unit}`' for unit in item.units)} |" for item in DIMENSIONS.values()]
     lines += ["", "## Materials", "", "| name | kind | source |", "|---|---|---|"]
