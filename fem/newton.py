@@ -29,6 +29,9 @@ ROUGHEST = 0.1
 FINEST = 1e-3
 """Of the tolerance: a step need not reduce the residual below it."""
 
+NEAR = 100.0
+"""Times the tolerance: a step that would leave less than this may be the last."""
+
 FLAT = 0.5
 """Of the energy's slope along a step, where that is taken for the minimum."""
 
@@ -96,8 +99,7 @@ def newton(
             return x, Convergence("converged", iteration, size / scale), factor
         try:
             factor = tangent(x)
-            finest = FINEST * tolerance * scale / size
-            step = factor.within(-r, max(forcing, finest)) if isinstance(factor, Iterative) else factor.solve(-r)
+            step = _step(factor, r, forcing, tolerance * scale / size)
         except SingularMatrixError:
             return x, Convergence("singular matrix", iteration, size / scale), factor
         found = _line_search(residual, x, r, step)
@@ -109,6 +111,17 @@ def newton(
         x, r, size = trial, r_trial, size_trial
     status: Status = "converged" if size <= tolerance * scale else "iteration limit"
     return x, Convergence(status, max_iterations, size / scale), factor
+
+
+def _step(factor: Factor, r: Floats, forcing: float, goal: float) -> Floats:
+    """s with |r + K s| <= η |r|; goal : of the residual, relative to r.
+
+    One that may be the last is made as good as an exact one: the field's error is greater than the residual.
+    """
+    if not isinstance(factor, Iterative):
+        return factor.solve(-r)
+    finest = FINEST * goal
+    return factor.within(-r, finest if forcing < NEAR * goal else max(forcing, finest))
 
 
 def _line_search(
