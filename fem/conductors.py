@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache
 
 import numpy as np
 
@@ -14,29 +15,51 @@ _GAUSS, _GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(6)
 _UNIT, _UNIT_WEIGHTS = (_GAUSS + 1) / 2, _GAUSS_WEIGHTS / 2
 
 
-def region_load(mesh: Mesh, region: int, by_radius: bool = False) -> Floats:
-    """(n,) ∫ φ_i dr dz (m²), or ∫ φ_i/r dr dz (m) by radius, over one region; dx dy in a planar problem.
-
-    Summed, the region's area or the integral of 1/r over it, since the shape functions add up to one.
-    """
-    elements = np.flatnonzero(mesh.region == region)
+@lru_cache(maxsize=2)  # one mesh's two: many regions ask, and each alone would cost as much as all
+def element_loads(mesh: Mesh, by_radius: bool = False) -> Floats:
+    """(m, 6) ∫ φ_i dr dz (m²), or ∫ φ_i/r dr dz (m) by radius, over each element; dx dy in a planar problem."""
+    elements = np.arange(mesh.region.size)
     if mesh.chart == "planar":
         return _integral(mesh, elements, QUADRATURE_POINTS, QUADRATURE_WEIGHTS, 0)
     power = 2 if by_radius else 1
-    on_axis = mesh.nodes[mesh.elements[elements, :3], 0] <= 0
-    corners = on_axis @ np.array([1, 2, 4])
-    load = _integral(mesh, elements[corners == 0], QUADRATURE_POINTS, QUADRATURE_WEIGHTS, power)
+    corners = (mesh.nodes[mesh.elements[:, :3], 0] <= 0) @ np.array([1, 2, 4])
+    load = _integral(mesh, elements, QUADRATURE_POINTS, QUADRATURE_WEIGHTS, power)
     for code in np.unique(corners[corners > 0]):
-        points, weights = _collapsed(int(code))
-        load += _integral(mesh, elements[corners == code], points, weights, power)
+        touching = elements[corners == code]
+        load[touching] = _integral(mesh, touching, *_collapsed(int(code)), power)
     return load
+
+
+def region_load(mesh: Mesh, region: int, by_radius: bool = False) -> Floats:
+    """(n,) the nodes' shares of `region_measure`, the shape functions' integrals."""
+    elements = np.flatnonzero(mesh.region == region)
+    return _nodal(mesh, elements, element_loads(mesh, by_radius)[elements])
+
+
+def region_measure(mesh: Mesh, region: int, by_radius: bool = False) -> float:
+    """Of one region its area (m²), or the integral of 1/r over it (m); 0 where it has no elements."""
+    measures = _region_measures(mesh, by_radius)
+    return float(measures[region]) if region < measures.size else 0.0
+
+
+@lru_cache(maxsize=2)
+def _region_measures(mesh: Mesh, by_radius: bool) -> Floats:
+    # The shape functions add up to one.
+    return np.asarray(np.bincount(mesh.region, element_loads(mesh, by_radius).sum(axis=1)), dtype=float)
 
 
 def circuit(mesh: Mesh, name: str, conductors: Sequence[Conductor], current: float) -> Circuit:
     """A circuit of regions in series, or of whatever share of its ampere each conductor's density says."""
     density = np.zeros(mesh.nodes.shape[0])
-    for conductor in conductors:
-        density += conductor.density * region_load(mesh, conductor.region, conductor.by_radius)
+    for by_radius in (False, True):
+        of_region = np.zeros(int(mesh.region.max(initial=0)) + 1)
+        for conductor in conductors:
+            if conductor.by_radius == by_radius and conductor.region < of_region.size:
+                of_region[conductor.region] += conductor.density
+        elements = np.flatnonzero(of_region[mesh.region])
+        if elements.size:
+            share = element_loads(mesh, by_radius)[elements] * of_region[mesh.region[elements]][:, None]
+            density += _nodal(mesh, elements, share)
     return Circuit(name, density, current, tuple(conductors))
 
 
@@ -51,7 +74,7 @@ def current_density(problem: Problem) -> tuple[Floats, Floats]:
 
 
 def _integral(mesh: Mesh, elements: Ints, points: Floats, weights: Floats, power: int) -> Floats:
-    """(n,) ∫ φ_i r^−power over elements in the chart's measure."""
+    """(k, 6) ∫ φ_i r^−power over elements (k,) in the chart's measure."""
     nodes = mesh.nodes[mesh.elements[elements]]
     values = shape(points)
     jacobian = np.einsum("mnk,qnd->mqkd", nodes, shape_derivatives(points), optimize=True)
@@ -59,7 +82,11 @@ def _integral(mesh: Mesh, elements: Ints, points: Floats, weights: Floats, power
     if power:
         s = np.maximum(np.einsum("qn,mn->mq", values, nodes[..., 0], optimize=True), np.finfo(float).tiny)
         area /= (2 * s) ** (power / 2)
-    share = np.einsum("mq,qn->mn", area, values, optimize=True)
+    return np.asarray(np.einsum("mq,qn->mn", area, values, optimize=True))
+
+
+def _nodal(mesh: Mesh, elements: Ints, share: Floats) -> Floats:
+    """(n,) the elements' shares (k, 6) at their nodes."""
     return np.asarray(np.bincount(mesh.elements[elements].ravel(), share.ravel(), mesh.nodes.shape[0]), dtype=float)
 
 

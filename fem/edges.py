@@ -176,12 +176,14 @@ class Drawing:
         return self._until_settled(edges, crowded, limit)
 
     def _until_settled(self, edges: Edges, rule: Callable[[Edges, Ints], Ints], limit: int) -> Edges:
-        new = np.arange(len(edges.ends))
+        new, count = np.arange(len(edges.ends)), len(edges.ends)
         while len(new):
             split = rule(edges, new)
+            if not len(split):
+                break
             parts = np.ones(len(edges.ends), dtype=int)
             parts[split] = 2
-            if parts.sum() > limit / 6:
+            if parts.sum() > max(limit / 6, 1.2 * count):
                 at = place(self.outline, edges.middles[split[edges.lengths[split].argmin()]])
                 raise MeshError(f"the narrow gaps of the drawing, such as near {at}, need more than {limit} triangles")
             before = {*map(tuple, edges.ends.tolist())}

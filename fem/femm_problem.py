@@ -10,7 +10,7 @@ import numpy as np
 from fluxbore.design.bh_curve import MU_0, BHCurve
 from fluxbore.design.errors import SpecError
 from fluxbore.fem.conditions import ConditionedMesh, Conditions, Mixed, Prescribed
-from fluxbore.fem.conductors import circuit, region_load
+from fluxbore.fem.conductors import circuit, region_measure
 from fluxbore.fem.femm_model import BlockLabel, BlockProperty, BoundaryProperty, FemmModel
 from fluxbore.fem.formula import Formula, parse_formula
 from fluxbore.fem.kelvin import KelvinExterior
@@ -232,17 +232,17 @@ def _solid(model: FemmModel, label: int) -> bool:
 
 def _in_series(model: FemmModel, mesh: Mesh, label: int) -> Conductor | None:
     by_radius = model.axisymmetric and _solid(model, label) and not _on_axis(mesh, label)
-    measure = float(region_load(mesh, label, by_radius).sum())
+    measure = region_measure(mesh, label, by_radius)
     return Conductor(label, model.labels[label].turns / measure, by_radius) if measure > 0 else None
 
 
 def _in_parallel(model: FemmModel, mesh: Mesh, members: list[int]) -> list[Conductor | None]:
     solid = [k for k in members if _solid(model, k)]
     if not solid:  # nothing conducts: one current density for all
-        area = sum(float(region_load(mesh, k).sum()) for k in members)
+        area = sum(region_measure(mesh, k) for k in members)
         return [Conductor(k, 1 / area) for k in members] if area > 0 else []
     by_radius = model.axisymmetric and not any(_on_axis(mesh, k) for k in solid)
-    conductance = {k: _block(model, k).conductivity * float(region_load(mesh, k, by_radius).sum()) for k in solid}
+    conductance = {k: _block(model, k).conductivity * region_measure(mesh, k, by_radius) for k in solid}
     total = sum(conductance.values())
     return [Conductor(k, _block(model, k).conductivity / total, by_radius) for k in solid] if total > 0 else []
 
@@ -253,15 +253,15 @@ def _on_axis(mesh: Mesh, region: int) -> bool:
 
 
 def _block_sources(model: FemmModel, mesh: Mesh) -> list[Circuit]:
-    found = []
+    conductors = []
     for number, label in enumerate(model.labels):
         # In a circuit the circuit says how much flows: FEMM takes the block's own current off the circuit's.
         if label.material is None or label.circuit is not None:
             continue
         density = model.materials[label.material].current_density
         if density:
-            found.append(circuit(mesh, "", [Conductor(number, density)], 1.0))
-    return found
+            conductors.append(Conductor(number, density))
+    return [circuit(mesh, "", conductors, 1.0)] if conductors else []
 
 
 def _point_sources(model: FemmModel, mesh: Mesh, vertex: Ints) -> list[Circuit]:

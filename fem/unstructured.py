@@ -45,20 +45,20 @@ def triangulate(outline: Outline, limit: int = LIMIT) -> Triangulation:
     seeds = np.array([s.position for s in outline.seeds], dtype=float).reshape(-1, 2)
     edges = drawing.untangled(drawing.edges(), np.vstack((spots, seeds)), limit)
     found = faces(drawing, edges, spots)
-    sizes = _sizes(drawing, found, limit)
+    sizes = _sizes(drawing, edges, found, limit)
     edges = drawing.divide(edges, _parts(drawing, edges, found, sizes, limit))
     edges = drawing.resolved(edges, spots, limit)
     # Curves that leave a point close together are told apart by short sides only.
     edges = drawing.untangled(edges, spots, limit)
     found = faces(drawing, edges, spots)
-    sizes = _sizes(drawing, found, limit)
+    sizes = _sizes(drawing, edges, found, limit)
     kept = np.asarray((found.sides >= 0).any(axis=1))
     stubs, stub_sides = _stubs(edges, found, sizes, np.flatnonzero(~used))
     job = _job(drawing, edges, found, kept, sizes, stubs, stub_sides)
     return _filled(drawing, edges, kept, found, run(job))
 
 
-def _sizes(drawing: Drawing, found: Faces, limit: int) -> Floats:
+def _sizes(drawing: Drawing, edges: Edges, found: Faces, limit: int) -> Floats:
     """(f,) greatest side in each face (m). Raises MeshError when they ask for too many triangles."""
     seeds = [drawing.outline.seeds[s] for s in found.seed]
     wished = np.array([np.nan if s.size is None else 2 * s.size for s in seeds])
@@ -78,6 +78,10 @@ def _sizes(drawing: Drawing, found: Faces, limit: int) -> Floats:
             f" {place(drawing.outline, np.array(seeds[k].position))} asks for about {asked[k]:.2g} triangles;"
             f" at most {limit} are made"
         )
+    # Nor may automatic sizes divide the sides of a drawing of many lines more than the limit allows.
+    own = np.append(np.where(np.isnan(wished), side, np.inf), np.inf)[found.sides].min(axis=1)
+    while coarser < 10 / AUTOMATIC and np.ceil(edges.lengths / (coarser * own)).sum() > max(limit / 8, len(own)):
+        coarser *= 1.25
     return np.where(np.isnan(wished), coarser * side, side)
 
 
@@ -88,7 +92,7 @@ def _parts(drawing: Drawing, edges: Edges, found: Faces, sizes: Floats, limit: i
         raise MeshError("the mesh size of a line or arc must be positive")
     size = np.minimum(own[edges.piece], np.append(sizes, np.inf)[found.sides].min(axis=1))
     parts = np.maximum(np.ceil(edges.lengths / size - 1e-6), 1)
-    if parts.sum() > limit / 6:
+    if parts.sum() > max(limit / 6, 1.2 * len(parts)):
         k = int(parts.argmax())
         raise MeshError(
             f"the mesh size {distance(drawing.outline, size[k] / 2)} near {place(drawing.outline, edges.middles[k])}"
