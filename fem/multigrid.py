@@ -1,10 +1,6 @@
 """Conjugate gradients with a multigrid preconditioner, for matrices too large for a factorisation.
 
-Algebraic multigrid by smoothed aggregation (Vaněk, Mandel and Brezina 1996): unknowns that are strongly coupled,
-
-    |a_ij| ≥ θ √(a_ii a_jj) ,
-
-are joined to one unknown of the next grid. The iterations then hardly depend on the size, so time and memory are in
+Algebraic multigrid by smoothed aggregation: the iterations hardly depend on the size, so time and memory are in
 proportion to the unknowns. The matrix tells all: jumps between iron and air, stretched elements and signs of
 antiperiodic pairs need no care.
 
@@ -18,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from fluxbore.fem.aggregation import v_cycle
 from fluxbore.fem.conjugate_gradients import Iterated, conjugate_gradients
 from fluxbore.fem.linear import Factor, Floats, Pattern, SingularMatrixError, SuperLU
 
@@ -122,23 +119,8 @@ def _rows(pattern: Pattern, values: Floats) -> Any:
 
 
 def _aggregates(matrix: Any) -> Any:
-    """One symmetric V-cycle as a linear operator.
-
-    Aggregates are smoothed with weights by rows, not by the spectral radius: pyamg estimates that from random vectors,
-    and the same model must give the same digits twice.
-    """
-    from pyamg import smoothed_aggregation_solver
-
+    """One symmetric V-cycle as a linear operator. Raises SingularMatrixError."""
     try:
-        solver = smoothed_aggregation_solver(
-            matrix,
-            strength=("symmetric", {"theta": STRENGTH}),
-            smooth=("jacobi", {"omega": 4 / 3, "weighting": "local"}),
-            presmoother=("gauss_seidel", {"sweep": "forward"}),
-            postsmoother=("gauss_seidel", {"sweep": "backward"}),
-            max_coarse=200,
-            coarse_solver="splu",
-        )
+        return v_cycle(matrix, STRENGTH)
     except RuntimeError as error:
         raise SingularMatrixError(str(error)) from error
-    return solver.aspreconditioner(cycle="V")
