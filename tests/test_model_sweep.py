@@ -190,6 +190,9 @@ def test_torn_at_every_byte_it_loses_the_torn_row_only(quick, folder):
         kept = sum(end <= length for end in ends[1:])
         assert len(computed) == 3 - kept, length
         assert path.read_text() == expected
+        computed.clear()
+        run_sweep(sweep_of(THREE), "torn")
+        assert computed == [], "what came after the torn row was joined to it"
 
 
 @pytest.mark.parametrize(
@@ -201,8 +204,17 @@ def test_a_damaged_line_costs_nothing_else(quick, folder, damage):
     lines = (folder / "out/sweep.jsonl").read_bytes().splitlines(keepends=True)
     (folder / "out/sweep.jsonl").write_bytes(b"".join([*lines[:2], damage + b"\n", *lines[3:]]))
     computed.clear()
-    assert run_sweep(sweep_of(THREE), "out") == (path, expected)
+    seen: list[Progress] = []
+    assert run_sweep(sweep_of(THREE), "out", progress=seen.append) == (path, expected)
     assert computed == [("2",)]
+    assert [each.done for each in seen] == [2, 3]
+
+
+class Interrupted(SerialExecutor):
+    """Somebody presses Ctrl-C before the first row is done."""
+
+    def run(self, function: object, tasks: Sequence[object]) -> Iterator[Outcome[object]]:  # type: ignore[override]
+        raise KeyboardInterrupt
 
 
 QUESTIONS = {
@@ -217,7 +229,7 @@ QUESTIONS = {
 
 
 @pytest.mark.parametrize("case", QUESTIONS)
-def test_another_question_does_not_take_these_rows(case, quick, folder):
+def test_another_question_does_not_take_these_rows(case, quick, folder, monkeypatch):
     """Catches figures of one question that are given as the answer to another, and rows that are lost by mistake."""
     run_sweep(sweep_of(THREE), "out")
     before = {path.name: path.read_bytes() for path in (folder / "out").iterdir()}
@@ -226,8 +238,12 @@ def test_another_question_does_not_take_these_rows(case, quick, folder):
     with pytest.raises(OutputError, match=r"^out must be empty or hold rows of this very sweep; .* \(see --force\)\.$"):
         run_sweep(other, "out")
     assert {path.name: path.read_bytes() for path in (folder / "out").iterdir()} == before
+    with monkeypatch.context() as patch, pytest.raises(KeyboardInterrupt):
+        patch.setattr(model_sweep, "local_executor", lambda _: Interrupted())
+        run_sweep(other, "out", force=True)
+    assert [path.name for path in (folder / "out").iterdir()] == ["sweep.jsonl"], "a table of another sweep stays"
     computed.clear()
-    _, rows = run_sweep(other, "out", force=True)
+    _, rows = run_sweep(other, "out")
     assert len(computed) == len(rows) == len(table_of("out/results.csv"))
 
 
