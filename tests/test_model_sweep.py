@@ -238,9 +238,10 @@ def test_another_question_does_not_take_these_rows(case, quick, folder, monkeypa
     with pytest.raises(OutputError, match=r"^out must be empty or hold rows of this very sweep; .* \(see --force\)\.$"):
         run_sweep(other, "out")
     assert {path.name: path.read_bytes() for path in (folder / "out").iterdir()} == before
-    with monkeypatch.context() as patch, pytest.raises(KeyboardInterrupt):
-        patch.setattr(model_sweep, "local_executor", lambda _: Interrupted())
+    monkeypatch.setattr(model_sweep, "local_executor", lambda _: Interrupted())
+    with pytest.raises(KeyboardInterrupt):
         run_sweep(other, "out", force=True)
+    monkeypatch.setattr(model_sweep, "local_executor", lambda _: SerialExecutor())
     assert [path.name for path in (folder / "out").iterdir()] == ["sweep.jsonl"], "a table of another sweep stays"
     computed.clear()
     _, rows = run_sweep(other, "out")
