@@ -4,6 +4,7 @@ import json
 import os
 import subprocess
 import sys
+from dataclasses import replace
 from functools import partial
 from math import cos, pi, radians, sin
 from pathlib import Path
@@ -13,6 +14,8 @@ import pytest
 
 import fluxbore
 from fluxbore.cli import main
+from fluxbore.fem.femm_model import CircuitProperty
+from fluxbore.fem.femm_writer import write_text
 from fluxbore.fem.magnetostatics import Settings
 
 CURRENT = f"circuit.{femm_models.SPULE}.current"
@@ -140,6 +143,27 @@ def test_points_with_a_minus_and_points_twice(answer):
 
 def test_a_group_twice_is_one(answer):
     assert answer("axi.fem", "--group", "1", "--group", "1")["groups"].keys() == {"1"}
+
+
+def test_circuits_of_one_name_are_told_apart(answer, folder):
+    """Catches a coil that vanishes behind another of its name."""
+    model = femm_models.planar()
+    (label,) = (number for number, item in enumerate(model.labels) if item.turns < 0)
+    labels = [replace(item, circuit=1) if number == label else item for number, item in enumerate(model.labels)]
+    circuits = (CircuitProperty("coil", 2.0), CircuitProperty("coil", 5.0))
+    (folder / "two.fem").write_text(write_text(replace(model, labels=tuple(labels), circuits=circuits)))
+    found = answer("two.fem")
+    assert {name: item["current"] for name, item in found["circuits"].items()} == {"coil": 2.0, "coil (2)": 5.0}
+    mutual = found["inductances"]["coil"]["coil (2)"]
+    assert mutual == pytest.approx(found["inductances"]["coil (2)"]["coil"])
+    assert mutual < 0, "the two sides are wound against each other"
+
+
+def test_a_name_does_not_steer_the_terminal(capsys, folder):
+    model = replace(femm_models.planar(), circuits=(CircuitProperty("red \x1b[31m coil", 2.0),))
+    (folder / "red.fem").write_text(write_text(model))
+    assert main(["solve", "red.fem", *ROUGH]) == 0
+    assert "circuit red \\x1b[31m coil: 2 A" in capsys.readouterr().out
 
 
 def test_accuracy_is_asked_for_and_reported(answer):

@@ -8,6 +8,8 @@ from typing import Any
 
 import numpy as np
 
+from fluxbore.design.errors import one_line
+from fluxbore.fem.femm_model import FemmModel
 from fluxbore.fem.femm_solution import FemmSolution, GroupForce
 
 
@@ -41,14 +43,26 @@ def solution_plain(
         "energy": energy,
         "coenergy": coenergy,
         "circuits": {
-            item.name: {"current": item.current, "flux_linkage": float(linkage)}
-            for item, linkage in zip(model.circuits, linkages, strict=True)
+            name: {"current": item.current, "flux_linkage": float(linkage)}
+            for name, item, linkage in zip(circuit_names(model), model.circuits, linkages, strict=True)
         },
         "inductances": inductances_plain(solution),
         "groups": {str(group): _force_plain(solution, force) for group, force in forces.items()},
         "points": _points_plain(solution, points),
         "warnings": list(warnings(solution, forces)),
     }
+
+
+def circuit_names(model: FemmModel) -> list[str]:
+    """The circuits' names; those that come again are numbered, as none may hide another."""
+    names: list[str] = []
+    for item in model.circuits:
+        name, number = item.name, 1
+        while name in names:
+            number += 1
+            name = f"{item.name} ({number})"
+        names.append(name)
+    return names
 
 
 def accuracy_plain(solution: FemmSolution) -> dict[str, Any]:
@@ -76,7 +90,7 @@ def accuracy_plain(solution: FemmSolution) -> dict[str, Any]:
 
 def inductances_plain(solution: FemmSolution) -> dict[str, dict[str, float]]:
     """Incremental inductances, by the names of both circuits (H)."""
-    names = [item.name for item in solution.model.circuits]
+    names = circuit_names(solution.model)
     if not names or not solution.solution.convergence.converged:
         return {}
     table = solution.inductances()
@@ -154,7 +168,8 @@ def solution_text(plain: Mapping[str, Any]) -> str:
         lines.append("integrals of all blocks:" if group == "all" else f"integrals of group {group}:")
         lines += [f"  {name.replace('_', ' ')} {_numbers(value)}" for name, value in integrals.items()]
     lines += [f"wrote {name}" for name in plain.get("files", ())]
-    return "\n".join([*lines, *(f"warning: {sentence}" for sentence in plain["warnings"])])
+    lines += [f"warning: {sentence}" for sentence in plain["warnings"]]
+    return "\n".join(one_line(line) for line in lines)  # names are the file's, and may hold what steers a terminal
 
 
 def _numbers(value: float | Sequence[float]) -> str:
