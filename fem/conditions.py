@@ -6,6 +6,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
 
 from fluxbore.fem.mesh import Chart, Floats, Ints, Mesh, Topology, in_space
 from fluxbore.fem.outline import Outline, Pair
@@ -62,14 +64,15 @@ def conditioned_mesh(
     """
     chart, nodes = outline.chart, quadratic.nodes
     fixed, values = _prescribed(triangulation, quadratic, outline, conditions)
-    mixed = any(isinstance(rule, Mixed) and rule.c0 > 0 for rule in conditions.curves)
-    if not fixed.any() and not mixed and not any(pair.sign < 0 for pair in outline.pairs):
-        fixed[0] = True  # only differences of ψ matter then: choose its zero
     root, sign = _tied(nodes.shape[0], _ties(triangulation, quadratic, outline.pairs))
     clash = sign == 0
     fixed |= clash
     sign[clash] = 1
     values[clash] = 0.0
+    held = fixed | (sign < 0)
+    mixed = np.array([_holds(outline, conditions, c) for c in range(len(outline.curves))], dtype=bool)
+    held[quadratic.edges[mixed[triangulation.curve]]] = True
+    fixed[_loose(quadratic.elements, root, held)] = True
     # A prescribed node prescribes those tied to it.
     owner = np.zeros(nodes.shape[0], dtype=bool)
     shared = np.zeros(nodes.shape[0])
@@ -84,6 +87,26 @@ def conditioned_mesh(
     topology = Topology(quadratic.elements, freedom, sign if np.any(sign[~fixed] < 0) else None)
     mesh = Mesh(chart, nodes, triangulation.region, topology)
     return ConditionedMesh(mesh, values, _edge_terms(mesh, triangulation, quadratic, outline, conditions))
+
+
+def _holds(outline: Outline, conditions: Conditions, curve: int) -> bool:
+    """Whether a curve's mixed condition leaves the constant part of ψ no choice."""
+    condition = outline.curves[curve].condition
+    rule = None if condition is None else conditions.curves[condition]
+    return isinstance(rule, Mixed) and rule.c0 > 0
+
+
+def _loose(elements: Ints, root: Ints, held: np.ndarray) -> Ints:
+    """A node of each part of the mesh that nothing holds: only differences of ψ matter there, so its zero is chosen."""
+    count = root.size
+    start, end = np.repeat(root[elements[:, 0]], 5), root[elements[:, 1:]].ravel()
+    graph = coo_array((np.ones(start.size), (start, end)), shape=(count, count))
+    parts, part = connected_components(graph, directed=False)
+    part = part[root]
+    known = np.zeros(parts, dtype=bool)
+    known[part[held]] = True
+    found, first = np.unique(part, return_index=True)
+    return np.asarray(first[~known[found]])
 
 
 def sides(triangulation: Triangulation) -> Ints:
