@@ -196,12 +196,12 @@ def run(numbers: range, seed: int, others: list[str], log: Path) -> list[Row]:
             with contextlib.suppress(ValueError):  # a last line that was cut short
                 row = json.loads(line)
                 rows[row["number"]] = row
-    server = Server(seed, others)
+    server, made = Server(seed, others), commit()
     with log.open("a", encoding="utf-8") as file:
         for number in numbers:
             if number in rows:
                 continue
-            row = server.ask(number)
+            row = server.ask(number) | {"commit": made}
             file.write(json.dumps(row) + "\n")
             file.flush()
             rows[number] = row
@@ -275,16 +275,19 @@ def main() -> int:
         return 0
     if options.only is not None:
         return show(options.only, options.seed, options.model)
-    made = commit()
-    log = options.log or Path(tempfile.gettempdir()) / f"fluxbore-fuzz-{made}-{options.seed}.jsonl"
+    log = options.log or Path(tempfile.gettempdir()) / f"fluxbore-fuzz-{commit()}-{options.seed}.jsonl"
     rows = run(range(options.first, options.first + options.count), options.seed, options.model, log)
     text = table(rows)
     print(text)
     if options.write:
+        made = Counter(row["commit"] for row in rows)
+        of = f"commit {next(iter(made))}"
+        if len(made) > 1:
+            of = "commits " + ", ".join(f"{name} ({count} files)" for name, count in made.items())
         files = "".join(f", {Path(name).name}" for name in options.model)
         head = (
             "# Damaged files\n\n"
-            f"Written by `python benchmarks/fuzz.py --write`, commit {made}, seed {options.seed},\n"
+            f"Written by `python benchmarks/fuzz.py --write`, seed {options.seed}, {of},\n"
             f"files {options.first} to {options.first + options.count - 1}. Models of the gallery{files} with one to\n"
             "three damages each: lines lost, doubled or exchanged, numbers out of range or slightly off, points\n"
             "merged, lines crossing, labels moved, rubbish. Each is read, meshed, solved, refined and written as\n"
