@@ -16,9 +16,9 @@ from fluxbore.fem.element import (
     stiffness,
     to_frame,
 )
-from fluxbore.fem.linear import Corrected, Factor, Method, factorise
+from fluxbore.fem.linear import Corrected, Factor, Method, Tangents, factorise
 from fluxbore.fem.mesh import Floats, Ints, Mesh
-from fluxbore.fem.newton import Convergence, newton
+from fluxbore.fem.newton import ROUGHEST, Convergence, newton
 from fluxbore.fem.problem import MagneticMaterial, Problem, Stack
 
 
@@ -221,10 +221,11 @@ def solve(problem: Problem, settings: Settings | None = None, start: Floats | No
     first = np.zeros(system.inner.size) if start is None else start[system.inner]
     unknowns, convergence, factor = newton(
         system.residual,
-        lambda x: factorise(system.pattern, system.tangent_values(x), settings.method),
+        Tangents(system.pattern, system.tangent_values, settings.method),
         first,
         float(np.linalg.norm(system.load)),
         settings.tolerance,
         settings.max_iterations,
+        ROUGHEST if system.iron else 0.0,
     )
     return Solution(problem, system.spread(unknowns), convergence, system, settings.method, factor)
