@@ -22,7 +22,8 @@ Ints = NDArray[np.int_]
 Method = Literal["auto", "banded", "superlu", "multigrid"]
 
 LARGE = 100_000
-"""Unknowns from which multigrid is the default: at 160,000 one solution takes 2 s, by SuperLU some 4 s."""
+"""Unknowns from which multigrid is the default: from no field to saturation it takes 10 s at 179,000 unknowns, where
+SuperLU takes 9 s at 83,000 (docs/validation/scaling.md). Below, SuperLU's many right sides are worth more than that."""
 
 LARGEST_FACTOR = 400_000
 """Unknowns up to which SuperLU steps in where multigrid fails; there a factor takes 14 s, by the law in `choose`."""
