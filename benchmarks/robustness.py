@@ -206,6 +206,9 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=SEED, help="of the first; the others follow")
     parser.add_argument("--write", action="store_true", help=f"write {PAGE.relative_to(TOP)}")
     arguments = parser.parse_args()
+    # Asked first: the run is of what is loaded now.
+    command = ["git", "-C", str(TOP), "rev-parse", "--short", "HEAD"]
+    commit = subprocess.run(command, capture_output=True, text=True, check=False).stdout.strip() or "unknown"
     library = standard()
     found: list[Run] = []
     for seed in range(arguments.seed, arguments.seed + arguments.count):
@@ -213,8 +216,6 @@ def main() -> None:
     text = "\n".join(lines(found))
     print(text)
     if arguments.write:
-        command = ["git", "-C", str(TOP), "rev-parse", "--short", "HEAD"]
-        commit = subprocess.run(command, capture_output=True, text=True, check=False).stdout.strip() or "unknown"
         options = f"--count {arguments.count} --seed {arguments.seed} --write"
         PAGE.write_text(
             "# Random designs\n\n"
