@@ -1,8 +1,9 @@
 """From straight triangles to quadratic elements that follow arcs, and that are sound on the axis.
 
-An element whose six nodes are those of a straight triangle in (r, z) is that triangle exactly in the chart as well,
-since s = r²/2 is a quadratic function. Only edges that touch the axis are laid straight in the chart instead: with the
-node at half of s, B_z = ∂ψ/∂s keeps its order down to the axis, where a node at half of r would lose one.
+Edges are straight in the chart, with the node at half of s = r²/2: B_z = ∂ψ/∂s then keeps its order down to the axis.
+A node at half of r would bend the elements around the axis by as much as they are long, and lose an order there. Lines
+that slope up from the axis are the exception: the chart turns them into parabolas with their vertex on it, which three
+nodes at even steps of r follow exactly.
 """
 
 from __future__ import annotations
@@ -49,9 +50,11 @@ def quadratic_nodes(triangulation: Triangulation, outline: Outline) -> Quadratic
     wanted = np.sort(triangulation.edges, axis=1)
     on_curve = np.searchsorted(codes, wanted[:, 0] * count + wanted[:, 1])
     straight = triangulation.points[ends].mean(axis=1)
-    middles = _at_axis(triangulation.points[ends], straight, outline)
-    slanted = on_curve[[outline.curves[c].turn == 0 for c in triangulation.curve]]
-    middles[slanted] = np.where(_level(triangulation.points[ends[slanted]]), middles[slanted], straight[slanted])
+    middles = straight.copy()
+    if outline.chart == "axisymmetric":
+        middles[:, 0] = np.sqrt(np.mean(triangulation.points[ends][..., 0] ** 2, axis=1))
+        lines = on_curve[[outline.curves[c].turn == 0 for c in triangulation.curve]]
+        middles[lines] = _on_lines(triangulation.points[ends[lines]], middles[lines, 0])
     _onto_arcs(middles, triangulation, on_curve, outline)
 
     nodes = in_chart(outline.chart, np.concatenate((triangulation.points, middles)))
@@ -72,23 +75,20 @@ def quadratic_nodes(triangulation: Triangulation, outline: Outline) -> Quadratic
     )
 
 
-def _level(ends: Floats) -> Floats:
-    """(k, 1) whether an edge runs along z or along r, so that it is straight in both charts."""
-    rise = np.abs(ends[:, 1] - ends[:, 0])
-    return np.asarray(rise.min(axis=1) <= 1e-9 * rise.max(axis=1))[:, None]
-
-
-def _at_axis(ends: Floats, straight: Floats, outline: Outline) -> Floats:
-    """(k, 2) middles, those of edges that touch the axis at the mean of s instead of r."""
-    if outline.chart == "planar":
-        return straight.copy()
-    touching = np.any(ends[..., 0] == 0, axis=1)
-    r = np.sqrt(np.mean(ends[..., 0] ** 2, axis=1))
-    return np.column_stack((np.where(touching, r, straight[:, 0]), straight[:, 1]))
+def _on_lines(ends: Floats, r: Floats) -> Floats:
+    """(k, 2) points on straight edges (k, 2, 2) at radius r (k,); halfway where an edge slopes up from the axis."""
+    start, run = ends[:, 0], ends[:, 1] - ends[:, 0]
+    sloping = (np.abs(run) > 1e-9 * np.abs(run).max(axis=1, keepdims=True)).all(axis=1)
+    halfway = ~sloping | (ends[..., 0] == 0).any(axis=1)
+    share = np.divide(r - start[:, 0], run[:, 0], out=np.full(r.size, 0.5), where=~halfway)
+    points = start + share[:, None] * run
+    # Along r and along z an edge is straight in both charts.
+    points[~sloping, 0] = r[~sloping]
+    return np.asarray(points)
 
 
 def _onto_arcs(middles: Floats, triangulation: Triangulation, on_curve: Ints, outline: Outline) -> None:
-    """Move the middles of edges on arcs to their circles: halfway along, or halfway in z beside the axis."""
+    """Move the middles of edges on arcs to their circles: halfway along, or in z where the centre is on the axis."""
     for number, curve in enumerate(outline.curves):
         if curve.turn == 0:
             continue
@@ -101,10 +101,9 @@ def _onto_arcs(middles: Floats, triangulation: Triangulation, on_curve: Ints, ou
         middle = centre + chord * np.divide(radius, size, out=np.ones_like(size), where=size > 0)[:, None]
         if outline.chart == "axisymmetric" and abs(centre[0]) < 1e-9 * radius:
             # A sphere is a parabola in the chart: with the node at half of its z, exactly.
-            touching = (a[:, 0] == 0) | (b[:, 0] == 0)
             z = (a[:, 1] + b[:, 1]) / 2
             r = np.sqrt(np.maximum(radius**2 - (z - centre[1]) ** 2, 0.0))
-            middle = np.where(touching[:, None], np.column_stack((r, z)), middle)
+            middle = np.column_stack((r, z))
         middles[on_curve[mine]] = middle
 
 

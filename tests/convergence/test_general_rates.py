@@ -50,9 +50,6 @@ FIELD = 1.9
 
 UNIT = (MagneticMaterial(1.0),)
 
-NEAR_AXIS = pytest.mark.xfail(
-    reason="elements a few times their own size away from the axis are straight in (r, z), hence bent in the chart"
-)
 NOTHING = Conditions([Prescribed(lambda points: np.zeros(points.shape[0]))])
 """Condition 0: no flux crosses."""
 
@@ -214,12 +211,11 @@ def errors_by_ring(solutions: list[Solution]) -> tuple[list[float], list[float],
 def test_field_on_the_axis_is_as_good_as_elsewhere() -> None:
     """Catches elements of low order where people look first: those in (r, z) have a rate of one."""
     on_axis, _, away = errors_by_ring(around_axis())
-    assert slope(on_axis) > 1.4, on_axis
+    assert slope(on_axis) > FIELD - 0.1, on_axis
     assert slope(away) > FIELD - 0.1, away
-    assert on_axis[-1] < 5 * away[-1]
+    assert on_axis[-1] < 2 * away[-1]
 
 
-@NEAR_AXIS
 def test_field_near_the_axis_keeps_its_order() -> None:
     """Catches elements on the axis, or their neighbours, losing an order: the last rates, where it shows."""
     for errors in errors_by_ring(around_axis()):
@@ -244,7 +240,6 @@ def test_iron_with_sloped_and_curved_faces_on_the_axis() -> None:
     assert slope(on_axis) > 1.4, on_axis
 
 
-@NEAR_AXIS
 def test_linkage_of_a_coil_keeps_its_order() -> None:
     """Catches what little of the order is lost near the axis, with and without iron there."""
     magnetic = driven_by_magnets(ball(*DOUBLE_CONE), (1.0, 1e-3, 1.0), 4)
@@ -310,11 +305,10 @@ def test_sphere(mu: float) -> None:
     """Catches a sphere's face that costs an order: iron in a field, and a magnet (0). Three halves without its arc."""
     body = Ball(mu)
     solved = body.solved(3)
-    assert slope([energies(s)[0] / body.energy(1.0) - 1 for s in solved]) > 3.6
+    assert slope([energies(s)[0] / body.energy(1.0) - 1 for s in solved]) > ENERGY
     assert slope([field_error(s, body.field) for s in solved]) > FIELD - 0.1
 
 
-@NEAR_AXIS
 def test_energy_of_a_sphere() -> None:
     """Catches what little of the order is lost near the axis."""
     body = Ball(5.0)
