@@ -240,6 +240,7 @@ def goals_of(model: FemmModel, groups: Sequence[int]) -> list[Goal]:
         else:
             goals.append(ForceGoal(f"x force on group {group}", regions, "x"))
             goals.append(ForceGoal(f"y force on group {group}", regions, "y"))
+            goals.append(ForceGoal(f"torque on group {group}", regions, "torque"))
     return goals
 
 

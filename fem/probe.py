@@ -51,7 +51,8 @@ def probe(solution: Solution, field: RecoveredField, locator: Locator, points: F
     for index in np.unique(region):
         mine = region == index
         h[mine] = field_strength(solution, int(index), b[mine], points[mine])
-    return Probe(potential, from_frame(mesh.chart, b), from_frame(mesh.chart, h), region)
+    # Adding zero turns −0 into 0.
+    return Probe(potential, from_frame(mesh.chart, b) + 0.0, from_frame(mesh.chart, h) + 0.0, region)
 
 
 def field_strength(solution: Solution, region: int, b: Floats, points: Floats) -> Floats:

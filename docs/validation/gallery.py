@@ -94,8 +94,8 @@ def summary(case: Case, runs: list[Run]) -> str:
     )
 
 
-SPAN = 1e-2
-"""A force whose arm would have to be a hundred times the file's unit to give the torque is next to nothing."""
+SPAN = 100
+"""File units: a force that needs a longer arm than this to give the torque is next to nothing."""
 
 
 def routes(case: Case, result: Mapping[str, Any]) -> str:

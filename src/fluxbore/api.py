@@ -290,13 +290,14 @@ def _write_cad(spec: Spec, folder: Path) -> list[Path]:
 
 def _write_femm(spec: Spec, folder: Path | str, force: bool) -> Path:
     from fluxbore.fem.femm_writer import write_text
+    from fluxbore.geometry.step import file_name
 
     make = actuator_of(spec).femm_model
     _need(make is not None, "actuator.kind", "a FEMM model")
     assert make is not None
     text = write_text(make(spec))
     with open_folder(folder, spec, force) as place:
-        return place.write(f"{spec.word('actuator.name')}.fem", text)
+        return place.write(f"{file_name(spec.word('actuator.name'))}.fem", text)
 
 
 def _evaluated(spec: Spec, journal: Journal | None, executor: Executor) -> Evaluation:
