@@ -1,8 +1,9 @@
 """A machine's cross-section as a model that FEMM opens, to be checked or changed there.
 
 The outer boundary is A = 0 where the machine's own mesh ends, three yoke diameters away, and no Kelvin exterior: the
-file stays a plain drawing that people can edit, and an open boundary is one option away (`femm_open`). The machine's own
-solution is open there (`asymptotic`): forces and linkages agree to some millionths, the stray field to half a per cent.
+file stays a plain drawing that people can edit, and an open boundary is one option away (`femm_open`). The machine's
+own solution is open there (`asymptotic`): forces and linkages agree to some millionths, the stray field to half a per
+cent.
 """
 
 from __future__ import annotations
