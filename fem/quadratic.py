@@ -1,9 +1,9 @@
 """From straight triangles to quadratic elements that follow arcs, and that are sound on the axis.
 
 Edges are straight in the chart, with the node at half of s = r²/2: B_z = ∂ψ/∂s then keeps its order down to the axis.
-A node at half of r would bend the elements around the axis by as much as they are long, and lose an order there. Lines
-that slope up from the axis are the exception: the chart turns them into parabolas with their vertex on it, which three
-nodes at even steps of r follow exactly.
+A node at half of r would bend the elements around the axis by as much as they are long, and lose an order there. The
+drawing's sloping lines are the exception: the chart turns them into parabolas, which three nodes at even steps of r
+follow exactly.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fluxbore.fem.element import QUADRATURE_POINTS, shape_derivatives
 from fluxbore.fem.field import CORNERS_AND_MIDDLES
@@ -18,6 +19,8 @@ from fluxbore.fem.linear import near_numbering
 from fluxbore.fem.mesh import Floats, Ints, in_chart
 from fluxbore.fem.outline import Outline
 from fluxbore.fem.triangulation import Triangulation
+
+Flags = NDArray[np.bool_]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -54,7 +57,8 @@ def quadratic_nodes(triangulation: Triangulation, outline: Outline) -> Quadratic
     if outline.chart == "axisymmetric":
         middles[:, 0] = np.sqrt(np.mean(triangulation.points[ends][..., 0] ** 2, axis=1))
         lines = on_curve[[outline.curves[c].turn == 0 for c in triangulation.curve]]
-        middles[lines] = _on_lines(triangulation.points[ends[lines]], middles[lines, 0])
+        sloping = lines[_sloping(triangulation.points[ends[lines]])]
+        middles[sloping] = straight[sloping]
     _onto_arcs(middles, triangulation, on_curve, outline)
 
     nodes = in_chart(outline.chart, np.concatenate((triangulation.points, middles)))
@@ -75,16 +79,10 @@ def quadratic_nodes(triangulation: Triangulation, outline: Outline) -> Quadratic
     )
 
 
-def _on_lines(ends: Floats, r: Floats) -> Floats:
-    """(k, 2) points on straight edges (k, 2, 2) at radius r (k,); halfway where an edge slopes up from the axis."""
-    start, run = ends[:, 0], ends[:, 1] - ends[:, 0]
-    sloping = (np.abs(run) > 1e-9 * np.abs(run).max(axis=1, keepdims=True)).all(axis=1)
-    halfway = ~sloping | (ends[..., 0] == 0).any(axis=1)
-    share = np.divide(r - start[:, 0], run[:, 0], out=np.full(r.size, 0.5), where=~halfway)
-    points = start + share[:, None] * run
-    # Along r and along z an edge is straight in both charts.
-    points[~sloping, 0] = r[~sloping]
-    return np.asarray(points)
+def _sloping(ends: Floats) -> Flags:
+    """(k,) whether an edge runs neither along r nor along z, so that it is not straight in both charts."""
+    rise = np.abs(ends[:, 1] - ends[:, 0])
+    return np.asarray(rise.min(axis=1) > 1e-9 * rise.max(axis=1))
 
 
 def _onto_arcs(middles: Floats, triangulation: Triangulation, on_curve: Ints, outline: Outline) -> None:
