@@ -26,6 +26,9 @@ from fluxbore.fem.triangulation import Triangulation
 MARKED_SHARE = 0.6
 """Of the estimated error, carried by the elements that are refined (Dörfler 1996)."""
 
+PATIENCE = 6
+"""Meshes without a better estimate after which none is expected."""
+
 ROUGH = 1e-5
 """Newton's tolerance on the meshes before the last: far below what their elements are off by."""
 
@@ -132,6 +135,7 @@ def solve_adaptively(
         reached = levels[-1].worst <= accuracy
         # Each marked triangle becomes four, and closure adds about as many again.
         full = len(levels) >= max_levels or mesh.topology.unknowns + 8 * int(marked.sum()) > max_unknowns
+        full |= _hopeless([level.worst for level in levels])
         if reached or full:
             final = solve(problem, settings, solution.psi)
             iterations = solution.convergence.iterations + final.convergence.iterations
@@ -142,6 +146,11 @@ def solve_adaptively(
         problem = discretise(finer.triangulation)
         start = _carried(solution, triangulation, finer.triangulation, finer.origin, problem.mesh)
         triangulation = finer.triangulation
+
+
+def _hopeless(worst: Sequence[float]) -> bool:
+    """Whether the last meshes have not bettered the best estimate before them."""
+    return len(worst) > PATIENCE and min(worst[-PATIENCE:]) >= min(worst[:-PATIENCE])
 
 
 def _level(solution: Solution, estimates: tuple[Estimate, ...]) -> Level:

@@ -136,7 +136,7 @@ def _line_search(
     """
     size, slope = float(np.linalg.norm(r)), float(r @ step)
     best: tuple[Floats, Floats] | None = None
-    low, slope_low, high, length = 0.0, slope, 1.0, 1.0
+    low, slope_low, high, slope_high, length = 0.0, slope, 1.0, 0.0, 1.0
     while high > SHORTEST_STEP and high - low > SHORTEST_STEP * high:
         trial = x + length * step
         r_trial = residual(trial)
@@ -149,6 +149,8 @@ def _line_search(
                 return trial, r_trial
             best = best or (trial, r_trial)
         if slope < slope_trial < 0:
+            if length == 1:  # the energy falls all the way, and the next step goes on from there
+                return trial, r_trial
             low, slope_low = length, slope_trial
         else:
             high, slope_high = length, slope_trial
