@@ -33,6 +33,10 @@ class BodyForce:
     force: tuple[float, float]
     torque: float
 
+    def component(self, component: Component) -> float:
+        """One of them; "z" and "y" are the second component of the force."""
+        return {"x": self.force[0], "y": self.force[1], "z": self.force[1], "torque": self.torque}[component]
+
 
 def stress_force(solution: Solution, weight: Weight) -> BodyForce:
     """By the stress tensor, over the weight's shell."""
@@ -53,19 +57,14 @@ def stress_gradient(solution: Solution, weight: Weight, component: Component) ->
     problem = solution.problem
     mesh, shell = problem.mesh, weight.shell
     curl, measure, points, field, slope = _in_shell(solution, weight, solution.psi[mesh.elements[shell]])
-    if component == "torque":
-        direction = np.stack((-points[..., 1], points[..., 0]), axis=-1)
-    else:
-        direction = np.broadcast_to([1.0, 0.0] if component == "x" else [0.0, 1.0], field.shape)
+    direction = _direction(component, points)
 
     def dot(a: Floats, b: Floats) -> Floats:
         return np.asarray(np.sum(a * b, axis=-1, keepdims=True))
 
     change = direction * dot(field, slope) + slope * dot(direction, field) - field * dot(direction, slope)
     change *= -VACUUM_RELUCTIVITY * measure[..., None]
-    turned = np.stack((direction[..., 1], -direction[..., 0]), axis=-1)
-    turned = -turned if mesh.chart == "axisymmetric" else turned
-    change -= (_value(weight, mesh) * _current(solution, shell, points) * measure)[..., None] * turned
+    change -= (_value(weight, mesh) * _current(solution, shell, points) * measure)[..., None] * _across(mesh, direction)
     share = np.einsum("mqkn,mqk->mn", curl, to_frame(mesh.chart, change), optimize=True)
     nodal = np.bincount(mesh.elements[shell].ravel(), share.ravel(), mesh.nodes.shape[0])
     return np.asarray(nodal * problem.extent)
@@ -77,17 +76,49 @@ def stress_scale(solution: Solution, weight: Weight, component: Component) -> fl
     return float(np.abs(_integrands(solution, weight)[:, column]).sum() * solution.problem.extent)
 
 
-def lorentz_force(solution: Solution, body: Collection[int]) -> BodyForce | None:
-    """∫ J×B dV over the body's conductors; None where the body is more than conductors in vacuum."""
+def lorentz_force(solution: Solution, body: Collection[int], field: Floats | None = None) -> BodyForce | None:
+    """∫ J×B dV over the body's conductors; None where the body is more than conductors in vacuum.
+
+    field : (m, q, 2) another flux density at the quadrature points of all elements, in the kernel's frame.
+    """
     problem = solution.problem
     if any(problem.materials[region].magnetic for region in body):
         return None
     mesh = problem.mesh
     elements = np.flatnonzero(np.isin(mesh.region, list(body)))
-    total = (_lorentz(solution, elements, solution.psi[mesh.elements[elements]])).sum(axis=(0, 1)) * problem.extent
+    if field is None:
+        parts = _lorentz(solution, elements, solution.psi[mesh.elements[elements]])
+    else:
+        parts = _by_current(solution, elements, from_frame(mesh.chart, field[elements]))
+    total = parts.sum(axis=(0, 1)) * problem.extent
     if mesh.chart == "axisymmetric":
         return BodyForce((0.0, float(total[1])), 0.0)
     return BodyForce((float(total[0]), float(total[1])), float(total[2]))
+
+
+def lorentz_gradient(solution: Solution, body: Collection[int], component: Component) -> Floats:
+    """(n,) ∂F/∂ψ of one component of ∫ J×B dV."""
+    mesh = solution.problem.mesh
+    elements = np.flatnonzero(np.isin(mesh.region, list(body)))
+    points = positions(mesh, elements)
+    amount = _current(solution, elements, points) * solution.system.kernel.weight[elements]
+    pull = amount[..., None] * _across(mesh, _direction(component, points))
+    share = np.einsum("mqkn,mqk->mn", solution.system.kernel.curl[elements], to_frame(mesh.chart, pull), optimize=True)
+    nodal = np.bincount(mesh.elements[elements].ravel(), share.ravel(), mesh.nodes.shape[0])
+    return np.asarray(nodal * solution.problem.extent)
+
+
+def _direction(component: Component, points: Floats) -> Floats:
+    """(k, q, 2) the direction that a component counts: constant, or that of a rotation about the origin."""
+    if component == "torque":
+        return np.stack((-points[..., 1], points[..., 0]), axis=-1)
+    return np.broadcast_to([1.0, 0.0] if component == "x" else [0.0, 1.0], points.shape)
+
+
+def _across(mesh: Mesh, direction: Floats) -> Floats:
+    """(k, q, 2) u with (J×B)·e = J u·B: e turned by a quarter, the other way about an axis than in a plane."""
+    turned = np.stack((direction[..., 1], -direction[..., 0]), axis=-1)
+    return -turned if mesh.chart == "axisymmetric" else turned
 
 
 def _in_shell(solution: Solution, weight: Weight, psi: Floats) -> tuple[Floats, Floats, Floats, Floats, Floats]:
@@ -135,10 +166,16 @@ def _current(solution: Solution, elements: Ints, points: Floats) -> Floats:
 def _lorentz(solution: Solution, elements: Ints, psi: Floats) -> Floats:
     """(k, q, 3) force and torque of the currents at the quadrature points, times the measure."""
     mesh = solution.problem.mesh
-    points = positions(mesh, elements)
-    curl, measure = solution.system.kernel.curl[elements], solution.system.kernel.weight[elements]
+    curl = solution.system.kernel.curl[elements]
     field = from_frame(mesh.chart, np.einsum("mqkn,mn->mqk", curl, psi, optimize=True))
-    amount = _current(solution, elements, points) * measure
+    return _by_current(solution, elements, field)
+
+
+def _by_current(solution: Solution, elements: Ints, field: Floats) -> Floats:
+    """(k, q, 3) J×B and its torque at the quadrature points, times the measure; field : (k, q, 2) B in space."""
+    mesh = solution.problem.mesh
+    points = positions(mesh, elements)
+    amount = _current(solution, elements, points) * solution.system.kernel.weight[elements]
     if mesh.chart == "axisymmetric":  # φ × r = −z, φ × z = r
         force = np.stack((amount * field[..., 1], -amount * field[..., 0]), axis=-1)
     else:  # z × x = y, z × y = −x

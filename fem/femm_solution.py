@@ -51,20 +51,38 @@ class GroupForce:
     """Force and torque on a group.
 
     by_stress : over the whole of the air around it. by_layer : by virtual work over the layer that touches it.
-    lorentz : of its currents, where it is nothing but coils. error : N, by how much the routes differ. touches : the
-    labels of magnetic regions that it touches; the force is not defined then.
+    lorentz : of its currents, where it is nothing but coils; lorentz_recovered : the same by the recovered field.
+    touches : labels of magnetic regions that it touches. surrounded : whether there is any air around it.
     """
 
     by_stress: BodyForce
     by_layer: BodyForce
     lorentz: BodyForce | None
+    lorentz_recovered: BodyForce | None
     touches: tuple[int, ...]
+    surrounded: bool
+
+    @property
+    def defined(self) -> bool:
+        """Between bodies in contact there is a force for coils only, that on their currents."""
+        return self.lorentz is not None or (self.surrounded and not self.touches)
+
+    @property
+    def value(self) -> BodyForce:
+        """By the stress around the group; that on its currents, where it is a coil that touches something magnetic."""
+        if self.lorentz is not None and (self.touches or not self.surrounded):
+            return self.lorentz
+        return self.by_stress
 
     @property
     def error(self) -> float:
-        routes = [self.by_layer] if self.lorentz is None else [self.by_layer, self.lorentz]
-        a = np.array(self.by_stress.force)
-        return float(max(np.linalg.norm(a - np.array(route.force)) for route in routes))
+        """N, by how much the routes differ."""
+        if self.value is self.lorentz:
+            routes = [self.lorentz_recovered]
+        else:
+            routes = [self.by_layer, self.lorentz]
+        a = np.array(self.value.force)
+        return float(max(np.linalg.norm(a - np.array(route.force)) for route in routes if route is not None))
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,7 +133,9 @@ class FemmSolution:
             stress_force(self.solution, smooth),
             stress_force(self.solution, layer_weight(problem, regions)),
             lorentz_force(self.solution, regions),
+            lorentz_force(self.solution, regions, self.field.at_quadrature()),
             smooth.touched,
+            bool(smooth.shell.size),
         )
 
     def probe(self, points: Floats) -> Probe:

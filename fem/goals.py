@@ -9,7 +9,14 @@ from functools import lru_cache
 import numpy as np
 
 from fluxbore.fem.adapt import Measure
-from fluxbore.fem.body_force import Component, stress_force, stress_gradient, stress_scale
+from fluxbore.fem.body_force import (
+    Component,
+    lorentz_force,
+    lorentz_gradient,
+    stress_force,
+    stress_gradient,
+    stress_scale,
+)
 from fluxbore.fem.energy import energies
 from fluxbore.fem.linkage import flux_linkages
 from fluxbore.fem.locate import Locator
@@ -104,8 +111,15 @@ class ForceGoal:
 
     def measure(self, solution: Solution) -> Measure:
         weight = smooth_weight(solution.problem, self.regions)
-        found = stress_force(solution, weight)
-        value = {"x": found.force[0], "y": found.force[1], "z": found.force[1], "torque": found.torque}[self.component]
-        whole = stress_scale(solution, weight, self.component)
-        scale = FORCE_SHARE * max(abs(value), NEXT_TO_NOTHING * whole)
-        return Measure(value, scale, stress_gradient(solution, weight, self.component))
+        by_current = lorentz_force(solution, self.regions)
+        if by_current is not None and not weight.defined:
+            value, gradient = (
+                by_current.component(self.component),
+                lorentz_gradient(solution, self.regions, self.component),
+            )
+            whole = float(np.abs(gradient * solution.psi).sum())
+        else:
+            value = stress_force(solution, weight).component(self.component)
+            gradient = stress_gradient(solution, weight, self.component)
+            whole = stress_scale(solution, weight, self.component)
+        return Measure(value, FORCE_SHARE * max(abs(value), NEXT_TO_NOTHING * whole), gradient)

@@ -223,7 +223,8 @@ def solve(problem: Problem, settings: Settings | None = None, start: Floats | No
         system.residual,
         Tangents(system.pattern, system.tangent_values, settings.method),
         first,
-        float(np.linalg.norm(system.load)),
+        # Without a load, of a model of iron alone, the prescribed potentials are what drives it.
+        float(np.linalg.norm(system.load)) or float(np.linalg.norm(system.residual(np.zeros_like(first)))),
         settings.tolerance,
         settings.max_iterations,
         ROUGHEST if system.iron else 0.0,

@@ -29,11 +29,18 @@ class Topology:
     freedom : (n,) number of the unknown at each node, −1 where ψ is prescribed. Nodes that a periodic boundary ties
         together share an unknown.
     sign : (n,) ±1, −1 where an antiperiodic boundary turns the unknown round; None for +1 everywhere.
+    mate : (n,) the node that stands for each node and those tied to it; None where each stands for itself.
     """
 
     elements: Ints
     freedom: Ints
     sign: Ints | None = None
+    mate: Ints | None = None
+
+    @property
+    def mates(self) -> Ints:
+        """(n,) the node that stands for each node: the same one for nodes that are tied together."""
+        return np.arange(self.freedom.size) if self.mate is None else self.mate
 
     @cached_property
     def unknowns(self) -> int:

@@ -14,6 +14,10 @@ Field = Callable[[Floats], Floats]
 """A vector at each point: (..., 2) positions in m -> (..., 2)."""
 
 
+NEXT_TO_AIR = 1e-3
+"""Of the reluctivity: a material this near to vacuum changes a force by less than other errors do."""
+
+
 class Grade(Protocol):
     """A factor on a linear material's reluctivity that varies in space."""
 
@@ -79,9 +83,11 @@ class MagneticMaterial:
 
     @property
     def magnetic(self) -> bool:
-        """Whether it is anything but air to the field."""
-        vacuum = self.components == (VACUUM_RELUCTIVITY, VACUUM_RELUCTIVITY) and self.grade is None
-        return not vacuum or callable(self.coercivity) or self.coercivity != (0.0, 0.0)
+        """Whether it is anything but air to the field. Copper, at 10 millionths from air, is air."""
+        if self.curve is not None or self.grade is not None:
+            return True
+        air = all(abs(part / VACUUM_RELUCTIVITY - 1) < NEXT_TO_AIR for part in self.components)
+        return not air or callable(self.coercivity) or self.coercivity != (0.0, 0.0)
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,11 +6,14 @@ from collections.abc import Collection
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fluxbore.fem.element import kernel, positions, stiffness
 from fluxbore.fem.linear import Pattern, choose, factorise
 from fluxbore.fem.mesh import Floats, Ints, Mesh
 from fluxbore.fem.problem import Problem
+
+Flags = NDArray[np.bool_]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -24,6 +27,11 @@ class Weight:
     shell: Ints
     touched: tuple[int, ...]
 
+    @property
+    def defined(self) -> bool:
+        """Whether there is air all around the body, so that its stress says what pulls on it."""
+        return bool(self.shell.size) and not self.touched
+
 
 def smooth_weight(problem: Problem, body: Collection[int]) -> Weight:
     """The weight of a body made of some regions.
@@ -35,17 +43,15 @@ def smooth_weight(problem: Problem, body: Collection[int]) -> Weight:
     """
     mesh = problem.mesh
     inside, air, other = _parts(problem, body)
-    nodal, fixed = np.zeros(mesh.nodes.shape[0]), np.ones(mesh.nodes.shape[0], dtype=bool)
-    shell = np.flatnonzero(air)
-    fixed[mesh.elements[shell]] = False
-    rim = boundary_nodes(problem, inside)
-    for group in (rim, mesh.elements[other].ravel()):
-        fixed[group] = True
-    on_body = np.unique(mesh.elements[inside])
-    fixed[on_body], nodal[on_body] = True, 1.0
-    nodal = _harmonic(problem, shell, nodal, fixed)
-    varying = np.ptp(nodal[mesh.elements[shell]], axis=1) > 1e-12
-    return Weight(nodal, shell[varying], _touching(problem, inside, other))
+    on_body = _with_mates(mesh, mesh.elements[inside])
+    nodal, fixed = on_body.astype(float), np.ones(mesh.nodes.shape[0], dtype=bool)
+    fixed[mesh.elements[air]] = False
+    fixed[boundary_nodes(problem, on_body)] = True
+    fixed[mesh.elements[other]] = True
+    fixed[_beside_filaments(problem, on_body)] = True
+    fixed[on_body] = True
+    nodal = _harmonic(problem, np.flatnonzero(air), nodal, fixed)
+    return Weight(nodal, _shell(problem, air, nodal), _touching(problem, inside, other))
 
 
 def layer_weight(problem: Problem, body: Collection[int]) -> Weight:
@@ -55,18 +61,53 @@ def layer_weight(problem: Problem, body: Collection[int]) -> Weight:
     """
     mesh = problem.mesh
     inside, air, other = _parts(problem, body)
-    nodal = np.zeros(mesh.nodes.shape[0])
-    nodal[mesh.elements[inside].ravel()] = 1.0
+    nodal = _with_mates(mesh, mesh.elements[inside]).astype(float)
     # The middle of an edge follows its two ends, so that the deformed elements stay straight.
     for corner in range(3):
         ends = mesh.elements[:, [corner, (corner + 1) % 3]]
         middle = mesh.elements[:, 3 + corner]
         nodal[middle] = nodal[ends].mean(axis=1)
-    shell = np.flatnonzero(air & (np.ptp(nodal[mesh.elements], axis=1) > 0))
-    return Weight(nodal, shell, _touching(problem, inside, other))
+    return Weight(nodal, _shell(problem, air, nodal), _touching(problem, inside, other))
 
 
-def _parts(problem: Problem, body: Collection[int]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _with_mates(mesh: Mesh, nodes: Ints) -> Flags:
+    """(n,) whether a node is one of those or tied to one."""
+    mates = mesh.topology.mates
+    chosen = np.zeros(mates.size, dtype=bool)
+    chosen[mates[nodes]] = True
+    return np.asarray(chosen[mates])
+
+
+def _shell(problem: Problem, air: Flags, nodal: Floats) -> Ints:
+    """The elements that count: where the weight varies, and where current flows under it, varying or not."""
+    mesh = problem.mesh
+    around = np.flatnonzero(air)
+    values = nodal[mesh.elements[around]]
+    carries = np.zeros(len(problem.materials), dtype=bool)
+    for item in (*problem.circuits, *problem.sources):
+        carries[[conductor.region for conductor in item.conductors]] = True
+    counts = (np.ptp(values, axis=1) > 1e-12) | ((values.max(axis=1) > 1e-12) & carries[mesh.region[around]])
+    return np.asarray(around[counts])
+
+
+def _beside_filaments(problem: Problem, on_body: Flags) -> Ints:
+    """The nodes nearer to a point current than half of its distance from the body.
+
+    The field beside it grows without bound, and so would the stress that a weight there picks up.
+    """
+    mesh = problem.mesh
+    loads = [source.density for source in problem.sources if not source.conductors]
+    filaments = np.unique(np.concatenate([np.flatnonzero(load) for load in loads])) if loads else np.zeros(0, dtype=int)
+    space, found = mesh.positions, [np.zeros(0, dtype=int)]
+    body = space[on_body]
+    for filament in filaments[~on_body[filaments]]:
+        reach = float(np.hypot(*(body - space[filament]).T).min(initial=np.inf)) / 2
+        near = np.flatnonzero(np.hypot(*(space - space[filament]).T) < reach)
+        found += [near, np.unique(mesh.elements[np.any(mesh.elements == filament, axis=1)])]
+    return np.concatenate(found)
+
+
+def _parts(problem: Problem, body: Collection[int]) -> tuple[Flags, Flags, Flags]:
     """(m,) each: whether an element is in the body, in vacuum outside it, or in something else that is magnetic.
 
     What hangs together with the body by ties alone, such as a Kelvin exterior, is not the space that the body moves in
@@ -95,51 +136,41 @@ def _islands(mesh: Mesh) -> Ints:
     return np.asarray(connected_components(graph, directed=False)[1][corners[:, 0]])
 
 
-def _touching(problem: Problem, inside: np.ndarray, other: np.ndarray) -> tuple[int, ...]:
+def _touching(problem: Problem, inside: Flags, other: Flags) -> tuple[int, ...]:
     """The magnetic regions that share an edge with the body."""
     mesh = problem.mesh
-    middles = np.unique(mesh.elements[inside, 3:])
-    contact = other & np.isin(mesh.elements[:, 3:], middles).any(axis=1)
+    middles = _with_mates(mesh, mesh.elements[inside, 3:])
+    contact = other & middles[mesh.elements[:, 3:]].any(axis=1)
     return tuple(np.unique(mesh.region[contact]).tolist())
 
 
-def boundary_nodes(problem: Problem, inside: np.ndarray) -> Ints:
+def boundary_nodes(problem: Problem, on_body: Flags) -> Ints:
     """The nodes of the domain's rim, without the axis and without straight runs of it that the body touches."""
     mesh = problem.mesh
-    count = np.bincount(mesh.elements[:, 3:].ravel(), minlength=mesh.nodes.shape[0])
-    lonely = count == 1
-    free = mesh.topology.freedom
-    if free.size:
-        # Nodes of periodic boundaries lie on the rim but share their unknown with another: they are inside.
-        shared = np.bincount(free[free >= 0], minlength=mesh.topology.unknowns) > 1
-        lonely[np.flatnonzero(free >= 0)] &= ~shared[free[free >= 0]]
+    mates = mesh.topology.mates
+    # The sides of a periodic boundary lie on the rim of the mesh, but there is another element beyond them.
+    count = np.bincount(mates[mesh.elements[:, 3:]].ravel(), minlength=mates.size)
     edges = np.concatenate([mesh.elements[:, [k, (k + 1) % 3, 3 + k]] for k in range(3)])
-    edges = edges[lonely[edges[:, 2]]]
+    edges = edges[count[mates[edges[:, 2]]] == 1]
     space = mesh.positions
     if mesh.chart == "axisymmetric":
         edges = edges[np.any(space[edges, 0] > 0, axis=1)]
-    body = np.zeros(space.shape[0], dtype=bool)
-    body[mesh.elements[inside]] = True
     direction = space[edges[:, 1]] - space[edges[:, 0]]
     direction /= np.linalg.norm(direction, axis=1)[:, None]
     normal = np.column_stack((-direction[:, 1], direction[:, 0]))
     offset = np.sum(normal * space[edges[:, 0]], axis=1)
-    scale = np.abs(space).max()
-    lines = np.column_stack((normal, offset / scale))
+    lines = np.column_stack((normal, offset / np.abs(space).max()))
     lines *= np.where(lines[:, :1] + 1e-7 * lines[:, 1:2] < 0, -1.0, 1.0)
-    keys = np.round(lines, 7)
-    touched = {tuple(key) for key in keys[np.any(body[edges], axis=1)]}
-    kept = np.array([tuple(key) not in touched for key in keys], dtype=bool)
-    return np.unique(edges[kept])
+    _, line = np.unique(np.round(lines, 7), axis=0, return_inverse=True)
+    touched = np.isin(line.ravel(), line.ravel()[np.any(on_body[edges], axis=1)])
+    return np.unique(edges[~touched])
 
 
-def _harmonic(problem: Problem, shell: Ints, nodal: Floats, fixed: np.ndarray) -> Floats:
+def _harmonic(problem: Problem, shell: Ints, nodal: Floats, fixed: Flags) -> Floats:
     """Solve Laplace's equation in the shell for the nodes that are not fixed, periodic nodes tied."""
     mesh = problem.mesh
-    tie = np.where(mesh.topology.freedom >= 0, mesh.topology.freedom, mesh.topology.unknowns + np.arange(fixed.size))
-    held = np.zeros(tie.max() + 1, dtype=bool)
-    held[tie[fixed]] = True
-    free = ~held[tie]
+    tie = mesh.topology.mates
+    free = ~_with_mates(mesh, np.flatnonzero(fixed))
     _, number = np.unique(tie[free], return_inverse=True)
     freedom = np.full(fixed.size, -1)
     freedom[free] = number.ravel()

@@ -27,7 +27,7 @@ def best(path: Path) -> float:
     files: list[Path] = fluxbore.export(spec, "cad")
     page: Path = fluxbore.report(spec, "report.html", picture=False).files[0]
     solution: FemmSolution = fluxbore.solve("model.fem", groups=[1], changes={"circuit.coil.current": 2.0})
-    pull: tuple[float, float] = solution.force(1).by_stress.force
+    pull: tuple[float, float] = solution.force(1).value.force
     found = fluxbore.optimize(spec, "out", workers=2, force=True)
     chosen = fluxbore.design(spec, "out").evaluation
     print(files, page, pull, found.chosen, sweeps[0].rows[0].values, chosen.performance.force_constant)

@@ -272,7 +272,7 @@ def test_the_python_interface_is_the_command_line(answer):
         solution = fluxbore.solve(model, groups=[1], points=[(1, 2), (1.0, 2.0)], accuracy=0.2, changes={CURRENT: 3})
         assert isinstance(solution, fluxbore.FemmSolution)
         assert solution.energies[0] == found["energy"]
-        assert list(solution.force(1).by_stress.force) == found["groups"]["1"]["force"]
+        assert list(solution.force(1).value.force) == found["groups"]["1"]["force"]
 
 
 @pytest.mark.parametrize("point", [(1.0,), (1.0, 2.0, 3.0), (float("nan"), 0.0)])

@@ -7,7 +7,7 @@ The same words as on the command line, with typed results::
     spec = fluxbore.load("examples/ipehla.toml")
     print(fluxbore.evaluate(spec).performance.force_constant)
     fluxbore.design(spec, "out")
-    print(fluxbore.solve("model.fem", groups=[1]).force(1).by_stress.force)
+    print(fluxbore.solve("model.fem", groups=[1]).force(1).value.force)
 
 Every function takes a `Spec` or the path of a specification file, `solve` that of a FEMM file; all work in SI units and
 raise `FluxboreError` with one sentence for whatever a person can mend.
