@@ -70,10 +70,16 @@ def stress_gradient(solution: Solution, weight: Weight, component: Component) ->
     return np.asarray(nodal * problem.extent)
 
 
-def stress_scale(solution: Solution, weight: Weight, component: Component) -> float:
-    """The shell elements' shares of a component added up without their signs: what it is small or large against."""
+def stress_scale(solution: Solution, weight: Weight, component: Component) -> tuple[float, float]:
+    """What a component is small or large against: its shares in the shell's elements without their signs, and those of
+    the whole vector, for a torque times half of the body's extent."""
+    parts, extent = _integrands(solution, weight), solution.problem.extent
     column = {"x": 0, "y": 1, "z": 1, "torque": 2}[component]
-    return float(np.abs(_integrands(solution, weight)[:, column]).sum() * solution.problem.extent)
+    whole = float(np.hypot(parts[:, 0], parts[:, 1]).sum()) * extent
+    if component == "torque":
+        body = solution.problem.mesh.positions[weight.nodal == 1]
+        whole *= float(np.hypot(*np.ptp(body, axis=0))) / 2 if body.size else 0.0
+    return float(np.abs(parts[:, column]).sum()) * extent, whole
 
 
 def lorentz_force(solution: Solution, body: Collection[int], field: Floats | None = None) -> BodyForce | None:
@@ -106,6 +112,16 @@ def lorentz_gradient(solution: Solution, body: Collection[int], component: Compo
     share = np.einsum("mqkn,mqk->mn", solution.system.kernel.curl[elements], to_frame(mesh.chart, pull), optimize=True)
     nodal = np.bincount(mesh.elements[elements].ravel(), share.ravel(), mesh.nodes.shape[0])
     return np.asarray(nodal * solution.problem.extent)
+
+
+def lorentz_scale(solution: Solution, body: Collection[int], component: Component) -> float:
+    """All that pulls on the body's currents, to whatever side; for a torque times half of the body's extent."""
+    mesh = solution.problem.mesh
+    elements = np.flatnonzero(np.isin(mesh.region, list(body)))
+    parts = _lorentz(solution, elements, solution.psi[mesh.elements[elements]])
+    whole = float(np.hypot(parts[..., 0], parts[..., 1]).sum()) * solution.problem.extent
+    places = mesh.positions[mesh.elements[elements].ravel()]
+    return whole * float(np.hypot(*np.ptp(places, axis=0))) / 2 if component == "torque" else whole
 
 
 def _direction(component: Component, points: Floats) -> Floats:

@@ -8,7 +8,7 @@ import numpy as np
 
 from fluxbore.fem.edges import Drawing
 from fluxbore.fem.faces import faces
-from fluxbore.fem.outline import Outline
+from fluxbore.fem.outline import Outline, Pair
 from fluxbore.fem.outline_check import cleaned, pieces
 
 _LIMIT = 50_000
@@ -38,5 +38,22 @@ def facing(outline: Outline) -> Outline:
     turned = []
     for pair in outline.pairs:
         first, second = (np.sign(way[curve == number].sum()) for number in (pair.first, pair.second))
-        turned.append(replace(pair, reverse=bool(first == second)))
+        by_radius = _by_radius(outline, pair)
+        turned.append(replace(pair, reverse=bool(first == second) if by_radius is None else by_radius))
     return replace(outline, pairs=tuple(turned))
+
+
+def _by_radius(outline: Outline, pair: Pair) -> bool | None:
+    """Whether two arcs about an axis are the same the one way round only, by the distance of their ends from it.
+
+    The rim of a Kelvin exterior may be drawn in several arcs: what meets must be at one latitude.
+    """
+    curves = [outline.curves[number] for number in (pair.first, pair.second)]
+    if outline.chart != "axisymmetric" or any(curve.turn == 0 for curve in curves):
+        return None
+    ends = []
+    for curve in curves:
+        radius = np.hypot(*(outline.points[curve.start] - outline.centre(curve)))
+        ends.append(outline.points[[curve.start, curve.end], 0] / radius)
+    straight, crossed = (bool(np.abs(ends[0] - other).max() < 1e-4) for other in (ends[1], ends[1][::-1]))
+    return crossed if straight != crossed else None

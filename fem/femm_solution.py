@@ -21,6 +21,7 @@ from fluxbore.fem.linkage import flux_linkages
 from fluxbore.fem.locate import Locator
 from fluxbore.fem.magnetostatics import Settings, Solution
 from fluxbore.fem.mesh import Floats, Mesh
+from fluxbore.fem.net_current import check_net_current
 from fluxbore.fem.outline import Outline
 from fluxbore.fem.probe import REACH, Probe, probe
 from fluxbore.fem.problem import Problem
@@ -167,10 +168,12 @@ def solve_model(
     points: Sequence[tuple[float, float]] = (),
     accuracy: float | None = None,
     max_unknowns: int | None = None,
+    open_plane: bool = False,
 ) -> FemmSolution:
     """Mesh, solve and refine until the estimated errors hold.
 
     groups : whose forces are to be accurate. points : file's unit, where B is to be. accuracy : relative, 1e-3 without.
+    open_plane : the model stands for all of the plane, where currents must add up to zero.
 
     Raises SpecError, MeshError for files that mean nothing; a failure to converge is in the solution.
     """
@@ -183,7 +186,9 @@ def solve_model(
     def discretise(triangulation: Triangulation) -> Problem:
         quadratic = quadratic_nodes(triangulation, drawn.outline)
         conditioned = conditioned_mesh(triangulation, quadratic, drawn.outline, drawn.conditions)
-        return problem(model, conditioned, quadratic.vertex)
+        found = problem(model, conditioned, quadratic.vertex)
+        check_net_current(model, found, conditioned.loose, open_plane)
+        return found
 
     def watched(solution: Solution, field: RecoveredField) -> Floats:
         return _local_error(solution, field, places[~corner]) / LOCAL_SLACK

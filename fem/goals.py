@@ -13,6 +13,7 @@ from fluxbore.fem.body_force import (
     Component,
     lorentz_force,
     lorentz_gradient,
+    lorentz_scale,
     stress_force,
     stress_gradient,
     stress_scale,
@@ -27,6 +28,10 @@ from fluxbore.fem.weight import smooth_weight
 NEXT_TO_NOTHING = 0.02
 """A force or linkage below this share of what its parts add up to without their signs is held against that share."""
 
+
+FORBIDDEN = 2e-3
+"""A component below this share of all that pulls on the body, to whatever side, is held against that share: where
+symmetry forbids it, even its parts are nothing."""
 
 FORCE_SHARE = 0.5
 """Forces are held to half of the accuracy: the forces of a pair then add up to nothing within it."""
@@ -47,7 +52,8 @@ class EnergyGoal:
 
     def measure(self, solution: Solution) -> Measure:
         energy, coenergy = energies(solution)
-        return Measure(energy, max(abs(energy), abs(coenergy)), None)
+        # A magnet alone has little of the one and much of the other.
+        return Measure(energy, max(abs(energy), 0.1 * abs(coenergy)), None)
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,13 +119,14 @@ class ForceGoal:
         weight = smooth_weight(solution.problem, self.regions)
         by_current = lorentz_force(solution, self.regions)
         if by_current is not None and not weight.defined:
-            value, gradient = (
-                by_current.component(self.component),
-                lorentz_gradient(solution, self.regions, self.component),
-            )
-            whole = float(np.abs(gradient * solution.psi).sum())
+            value = by_current.component(self.component)
+            gradient = lorentz_gradient(solution, self.regions, self.component)
+            own = float(np.abs(gradient * solution.psi).sum())
+            whole = lorentz_scale(solution, self.regions, self.component)
         else:
             value = stress_force(solution, weight).component(self.component)
             gradient = stress_gradient(solution, weight, self.component)
-            whole = stress_scale(solution, weight, self.component)
-        return Measure(value, FORCE_SHARE * max(abs(value), NEXT_TO_NOTHING * whole), gradient)
+            own, whole = stress_scale(solution, weight, self.component)
+            if by_current is not None:
+                whole = max(whole, lorentz_scale(solution, self.regions, self.component))
+        return Measure(value, FORCE_SHARE * max(abs(value), NEXT_TO_NOTHING * own, FORBIDDEN * whole), gradient)

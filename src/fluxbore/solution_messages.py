@@ -103,15 +103,23 @@ def warnings(solution: FemmSolution, forces: dict[int, GroupForce]) -> list[str]
     if not solution.solution.convergence.converged:
         found.append(solution.solution.convergence.sentence())
     elif not solution.adapted.reached:
-        worst = solution.adapted.levels[-1].worst
+        worst = max(solution.adapted.levels[-1].estimates, key=lambda estimate: estimate.relative)
         found.append(
             f"The accuracy of {solution.accuracy * 100:g} % was not reached with "
-            f"{solution.solution.problem.mesh.topology.unknowns} unknowns; the estimate is {worst * 100:.2g} %."
+            f"{solution.solution.problem.mesh.topology.unknowns} unknowns; the estimate is "
+            f"{worst.relative * 100:.2g} % ({worst.name})."
+        )
+    elif not solution.adapted.levels[-1].estimates:
+        found.append(
+            "The energy of point currents is infinite: without --group, --point or a coil there is no figure to refine "
+            "the mesh for."
         )
     for x, y in solution.corners:
         found.append(f"({x:g}, {y:g}) is a corner of a magnetic block: the field there has no finite value.")
     for group, force in forces.items():
-        if force.touches:
+        if not force.defined and not force.touches:
+            found.append(f"Group {group} has no air around it; there is nothing that could pull on it.")
+        if not force.defined and force.touches:
             label = solution.model.labels[force.touches[0]]
             found.append(
                 f"Group {group} touches other magnetic material, the block at ({label.x:g}, {label.y:g}); the force "
@@ -137,7 +145,7 @@ def solution_text(plain: Mapping[str, Any]) -> str:
     lines = [
         f"{plain['problem']['file'] or 'model'}: {plain['problem']['type']}, {mesh['elements']} quadratic triangles, "
         f"{mesh['unknowns']} unknowns",
-        f"Newton {convergence['status']} in {convergence['iterations']} steps on the last of "
+        f"Newton {convergence['status']} in {_steps(convergence['iterations'])} on the last of "
         f"{len(accuracy['levels'])} meshes" + ("" if estimate is None else f"; estimated error {estimate * 100:.2g} %"),
         f"energy {plain['energy']:.6g} J, coenergy {plain['coenergy']:.6g} J",
     ]
@@ -151,7 +159,9 @@ def solution_text(plain: Mapping[str, Any]) -> str:
         first, second = group["force"]
         words = f"axial {second:.6g} N" if axisymmetric else f"x {first:.6g} N, y {second:.6g} N"
         turning = "" if axisymmetric else f", torque {group['torque']:.6g} N m"
-        lines.append(f"group {number}: {words}{turning}, two routes differ by {group['force_error']:.2g} N")
+        error = group["force_error"]
+        routes = "" if error is None else f", two routes differ by {error:.2g} N"
+        lines.append(f"group {number}: {words}{turning}{routes}")
     names = ("B_r", "B_z") if axisymmetric else ("B_x", "B_y")
     for point in plain["points"]:
         x, y = point["at"]
@@ -177,13 +187,18 @@ def _numbers(value: float | Sequence[float]) -> str:
     return ", ".join(f"{number:.6g}" for number in values)
 
 
+def _steps(count: int) -> str:
+    return "one step" if count == 1 else f"{count} steps"
+
+
 def _force_plain(solution: FemmSolution, force: GroupForce) -> dict[str, Any]:
     return {
-        "force": list(force.by_stress.force),
-        "torque": force.by_stress.torque,
-        "force_error": force.error,
-        "force_by_virtual_work": list(force.by_layer.force),
-        "torque_by_virtual_work": force.by_layer.torque,
+        "force": list(force.value.force),
+        "torque": force.value.torque,
+        # Between bodies in contact no route tells anything of another.
+        "force_error": force.error if force.defined else None,
+        "force_by_virtual_work": list(force.by_layer.force) if force.value is force.by_stress else None,
+        "torque_by_virtual_work": force.by_layer.torque if force.value is force.by_stress else None,
         "force_by_lorentz": None if force.lorentz is None else list(force.lorentz.force),
         "torque_by_lorentz": None if force.lorentz is None else force.lorentz.torque,
     }
