@@ -5,7 +5,10 @@ monotone. A cubic spline through the table is not monotone, and a monotone cubic
 variation-diminishing spline is both: a uniform cubic B-spline whose coefficients are samples of a monotone
 interpolant keeps its monotony, reproduces straight lines, and departs from it by step²/6 times its curvature: at a
 tabulated H by less than a sixth of a step in B (Schoenberg 1967, "On spline functions"; Marsden 1970, J. Approx.
-Theory 3).
+Theory 3). Where a table ends unsaturated, H turns towards the slope of vacuum less than two steps before its end.
+
+The step is 10 mT, or a quarter of the table's shortest interval where that is below 20 mT: mu-metals are tabulated from
+1 mT on, and a spline coarser than its table averages H over several of its points.
 """
 
 from __future__ import annotations
@@ -25,18 +28,27 @@ VACUUM_RELUCTIVITY = 1 / VACUUM_PERMEABILITY
 """m/H."""
 
 STEP = 0.01
-"""T between the spline's knots: 4.2 A/m at most from the interpolant below 1.5 T of steel 1010, where H is 1300 A/m."""
+"""T between the knots of a table whose points are at least twice as far apart: 4.2 A/m at most from the interpolant
+below 1.5 T of steel 1010, where H is 1300 A/m."""
+
+INTERVALS = 20_000
+"""The most between zero and a table's last point: two points that all but coincide must not cost gigabytes."""
+
+FINEST_STEP = 1e-9
+"""T, below any measurement: the cube of a step must not vanish."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ReluctivityCurve:
     """H(B) of a soft iron as a C2, strictly monotone cubic spline with uniform knots.
 
-    coefficients : (4, k) of H on each interval of length ``STEP`` in powers of (B − knot), lowest first; the last
-        interval is the straight line of slope 1/μ0 that goes on for ever.
+    step : length of an interval (T).
+    coefficients : (4, k) of H on each interval in powers of (B − knot), lowest first; the last interval is the straight
+        line of slope 1/μ0 that goes on for ever.
     energy : (k,) ∫H dB (J/m³) up to each knot.
     """
 
+    step: float
     coefficients: Floats
     energy: Floats
 
@@ -67,7 +79,7 @@ class ReluctivityCurve:
 
     def coenergy_at(self, h: Floats) -> Floats:
         """∫B dH from zero (J/m³) at H >= 0 (A/m)."""
-        knots = STEP * np.arange(self.coefficients.shape[1])
+        knots = self.step * np.arange(self.coefficients.shape[1])
         at_knots = self.coefficients[0]
         b = np.interp(h, at_knots, knots)
         beyond = h > at_knots[-1]
@@ -80,8 +92,8 @@ class ReluctivityCurve:
 
     def _locate(self, b: Floats) -> tuple[np.ndarray, Floats]:
         # fmin sends NaN to the last interval, where it stays NaN: a field that does not exist is Newton's to report.
-        k = np.fmin(b / STEP, self.coefficients.shape[1] - 1).astype(int)
-        return k, b - k * STEP
+        k = np.fmin(b / self.step, self.coefficients.shape[1] - 1).astype(int)
+        return k, b - k * self.step
 
 
 @lru_cache(maxsize=64)
@@ -91,7 +103,8 @@ def reluctivity_curve(curve: BHCurve) -> ReluctivityCurve:
 
     b, h = np.array(curve.b), np.array(curve.h)
     table = PchipInterpolator(b, h)
-    knots = STEP * np.arange(int(np.ceil(b[-1] / STEP)) + 6)
+    step = _step(b)
+    knots = step * np.arange(int(np.ceil(b[-1] / step)) + 6)
     # Between two points of a steep table the interpolant can be steeper than 1/μ0, which no material is: a straight
     # line there is not. Cutting the slope instead would lose what is cut for all B above.
     interval = np.clip(np.searchsorted(b, knots, side="right") - 1, 0, b.size - 2)
@@ -99,23 +112,30 @@ def reluctivity_curve(curve: BHCurve) -> ReluctivityCurve:
     inside = np.where(steep[interval], np.interp(knots, b, h), table(np.minimum(knots, b[-1])))
     samples = np.where(knots <= b[-1], inside, h[-1] + (knots - b[-1]) * VACUUM_RELUCTIVITY)
     # A table's own rounding (`SLOPE_TOLERANCE` of the guard) may still exceed 1/μ0 by a thousandth.
-    samples = np.concatenate(([0.0], np.cumsum(np.minimum(np.diff(samples), STEP * VACUUM_RELUCTIVITY))))
+    samples = np.concatenate(([0.0], np.cumsum(np.minimum(np.diff(samples), step * VACUUM_RELUCTIVITY))))
     control = np.concatenate((-samples[1:3][::-1], samples))
     before, here, after, beyond = control[1:-3], control[2:-2], control[3:-1], control[4:]
     coefficients = np.array(
         [
             (before + 4 * here + after) / 6,
-            (after - before) / (2 * STEP),
-            (before - 2 * here + after) / (2 * STEP**2),
-            (beyond - 3 * after + 3 * here - before) / (6 * STEP**3),
+            (after - before) / (2 * step),
+            (before - 2 * here + after) / (2 * step**2),
+            (beyond - 3 * after + 3 * here - before) / (6 * step**3),
         ]
     )
     coefficients[[0, 2], 0] = 0.0  # odd about zero: not even the rounding of the sums above
     coefficients[2:, -1] = 0.0
-    x = STEP
+    x = step
     pieces = x * (coefficients[0] + x * (coefficients[1] / 2 + x * (coefficients[2] / 3 + x * coefficients[3] / 4)))
     energy = np.concatenate(([0.0], np.cumsum(pieces)[:-1]))
-    return ReluctivityCurve(coefficients, energy)
+    return ReluctivityCurve(step, coefficients, energy)
+
+
+def _step(b: Floats) -> float:
+    """T between the knots for a table's flux densities (k,)."""
+    shortest = round(float(np.diff(b).min()), 12)  # 0.06 − 0.04 is less than 0.02
+    wanted = STEP if shortest >= 2 * STEP else shortest / 4
+    return max(wanted, float(b[-1]) / INTERVALS, FINEST_STEP)
 
 
 def _steepest(coefficients: Floats, length: Floats) -> Floats:
