@@ -333,7 +333,7 @@ def test_cylinder_in_a_uniform_field() -> None:
 
 @cache
 def steel() -> ReluctivityCurve:
-    """A steel that saturates at 2 T, from a table as dense as its knots: jumps of the interpolant's curvature vanish."""
+    """A steel that saturates at 2 T, from a table as dense as its knots: the interpolant's kinks vanish."""
     law, b = layers.Steel(2.0, 50.0), np.arange(0.0, 2.2, STEP)
     with patch("fluxbore.fem.reluctivity._step", return_value=STEP):
         return reluctivity_curve(BHCurve("steel", tuple(b.tolist()), tuple(law.field(float(x)) for x in b), "a test"))
