@@ -47,11 +47,16 @@ class Conditions:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ConditionedMesh:
-    """prescribed : (n,) ψ where it is not unknown. edges : terms of mixed conditions, None without any."""
+    """prescribed : (n,) ψ where it is not unknown. edges : terms of mixed conditions, None without any.
+
+    loose : (n,) number, from 0, of the part of the mesh in which nothing fixes ψ, so that its zero is chosen at a node;
+    −1 elsewhere.
+    """
 
     mesh: Mesh
     prescribed: Floats
     edges: EdgeTerms | None
+    loose: Ints
 
 
 def conditioned_mesh(
@@ -72,7 +77,10 @@ def conditioned_mesh(
     held = fixed | (sign < 0)
     mixed = np.array([_holds(outline, conditions, c) for c in range(len(outline.curves))], dtype=bool)
     held[quadratic.edges[mixed[triangulation.curve]]] = True
-    fixed[_loose(quadratic.elements, root, held)] = True
+    loose = _loose(quadratic.elements, root, held)
+    # Only differences of ψ matter in a part that nothing holds: its zero is at its first node.
+    free, first = np.unique(loose, return_index=True)
+    fixed[first[free >= 0]] = True
     # A prescribed node prescribes those tied to it.
     owner = np.zeros(nodes.shape[0], dtype=bool)
     shared = np.zeros(nodes.shape[0])
@@ -84,9 +92,9 @@ def conditioned_mesh(
     _, number = np.unique(root[~fixed], return_inverse=True)
     freedom = np.full(nodes.shape[0], -1)
     freedom[~fixed] = number
-    topology = Topology(quadratic.elements, freedom, sign if np.any(sign[~fixed] < 0) else None)
+    topology = Topology(quadratic.elements, freedom, sign if np.any(sign[~fixed] < 0) else None, root)
     mesh = Mesh(chart, nodes, triangulation.region, topology)
-    return ConditionedMesh(mesh, values, _edge_terms(mesh, triangulation, quadratic, outline, conditions))
+    return ConditionedMesh(mesh, values, _edge_terms(mesh, triangulation, quadratic, outline, conditions), loose)
 
 
 def _holds(outline: Outline, conditions: Conditions, curve: int) -> bool:
@@ -97,16 +105,16 @@ def _holds(outline: Outline, conditions: Conditions, curve: int) -> bool:
 
 
 def _loose(elements: Ints, root: Ints, held: np.ndarray) -> Ints:
-    """A node of each part of the mesh that nothing holds: only differences of ψ matter there, so its zero is chosen."""
+    """(n,) number of the part of the mesh that each node is in, of the parts that nothing holds; −1 in the others."""
     count = root.size
     start, end = np.repeat(root[elements[:, 0]], 5), root[elements[:, 1:]].ravel()
     graph = coo_array((np.ones(start.size), (start, end)), shape=(count, count))
     parts, part = connected_components(graph, directed=False)
     part = part[root]
-    known = np.zeros(parts, dtype=bool)
+    known = np.ones(parts, dtype=bool)
+    known[part] = False
     known[part[held]] = True
-    found, first = np.unique(part, return_index=True)
-    return np.asarray(first[~known[found]])
+    return np.asarray(np.where(known, -1, np.cumsum(~known) - 1)[part])
 
 
 def sides(triangulation: Triangulation) -> Ints:

@@ -49,7 +49,8 @@ def solve(
 
             read = with_open_boundary(read)
         with one_thread():
-            return solve_model(read, groups, places, accuracy, max_unknowns)
+            open_plane = open_boundary and not read.axisymmetric
+            return solve_model(read, groups, places, accuracy, max_unknowns, open_plane)
     except MeshError as error:
         raise MeshError(_sentence(read, str(error))) from error
 

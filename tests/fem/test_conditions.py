@@ -54,6 +54,20 @@ def test_without_any_condition_one_node_is_chosen() -> None:
     """Catches a singular matrix: only differences of A matter then."""
     level = one(square(None, None, None, None), Conditions())
     assert np.count_nonzero(level.mesh.topology.freedom < 0) == 1
+    assert np.all(level.conditioned.loose == 0)
+
+
+def test_parts_that_nothing_holds_are_numbered() -> None:
+    """Catches a held part among them, and two of them under one number."""
+    points = np.array([(x + dx, dy) for x in (0, 2, 4) for dx, dy in ((0, 0), (1, 0), (1, 1), (0, 1))], dtype=float)
+    curves = (*polygon(0, 4), *polygon(4, 4, 0), *polygon(8, 4))
+    seeds = tuple(Seed((x + 0.5, 0.5), k) for k, x in enumerate((0, 2, 4)))
+    level = one(Outline("planar", points, curves, seeds), Conditions([constant(0.0)]))
+    x = level.mesh.positions[:, 0]
+    loose = level.conditioned.loose
+    assert np.all(loose[(x >= 2) & (x <= 3)] == -1)
+    first, last = (np.unique(loose[part]).tolist() for part in (x <= 1, x >= 4))
+    assert sorted(first + last) == [0, 1]
 
 
 @pytest.mark.parametrize("sign", [1, -1])
