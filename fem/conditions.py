@@ -101,7 +101,7 @@ def _holds(outline: Outline, conditions: Conditions, curve: int) -> bool:
     """Whether a curve's mixed condition leaves the constant part of ψ no choice."""
     condition = outline.curves[curve].condition
     rule = None if condition is None else conditions.curves[condition]
-    return isinstance(rule, Mixed) and rule.c0 > 0
+    return isinstance(rule, Mixed) and rule.c0 != 0
 
 
 def _loose(elements: Ints, root: Ints, held: np.ndarray) -> Ints:

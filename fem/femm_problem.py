@@ -8,7 +8,7 @@ from math import cos, radians
 import numpy as np
 
 from fluxbore.design.bh_curve import MU_0, BHCurve
-from fluxbore.design.errors import SpecError
+from fluxbore.design.errors import SpecError, shown
 from fluxbore.fem.conditions import ConditionedMesh, Conditions, Mixed, Prescribed
 from fluxbore.fem.conductors import circuit, region_measure
 from fluxbore.fem.femm_model import BlockLabel, BlockProperty, BoundaryProperty, FemmModel
@@ -88,6 +88,9 @@ def _condition(model: FemmModel, number: int | None) -> int | None:
     """The number of a condition that the mesh's builder knows; periodic ones are pairs instead."""
     if number is None or model.boundaries[number].kind in ("periodic", "antiperiodic"):
         return None
+    item = model.boundaries[number]
+    if item.kind == "mixed" and item.c0 < 0:  # what lies beyond would give out energy without end
+        raise SpecError(f"{_file(model)}: c0 of boundary {shown(item.name)} must not be negative; got {item.c0:g}.")
     return number
 
 

@@ -57,6 +57,13 @@ def test_without_any_condition_one_node_is_chosen() -> None:
     assert np.all(level.conditioned.loose == 0)
 
 
+def test_any_mixed_condition_of_c0_holds() -> None:
+    """Catches a zero chosen where there is no choice, for a c0 of either sign; c1 alone says nothing of the zero."""
+    for c0, held in ((1.0, True), (-1.0, True), (0.0, False)):
+        level = one(square(0, None, None, None), Conditions([Mixed(c0, 2.0)]))
+        assert np.count_nonzero(level.mesh.topology.freedom < 0) == (0 if held else 1)
+
+
 def test_parts_that_nothing_holds_are_numbered() -> None:
     """Catches a held part among them, and two of them under one number."""
     points = np.array([(x + dx, dy) for x in (0, 2, 4) for dx, dy in ((0, 0), (1, 0), (1, 1), (0, 1))], dtype=float)

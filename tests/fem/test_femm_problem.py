@@ -178,6 +178,16 @@ def test_refusals_say_what_and_where() -> None:
         solve_model(model, groups=(9,))
 
 
+def test_a_negative_c0_is_refused_where_a_line_uses_it() -> None:
+    """Catches another problem's answer: with c0 < 0 the field gives out energy without end."""
+    made = one()
+    made.label(5, 5, made.material("Copper", density=1e6))
+    unused = made.boundary("open", "mixed", c0=-1e6)
+    assert solve_model(made.model()).solution.convergence.converged
+    made.segments[0] = replace(made.segments[0], boundary=unused)
+    refused(made.model(), r'c0 of boundary "open" must not be negative; got -1e\+06\.')
+
+
 @pytest.mark.parametrize("count", [1, 3])
 def test_periodic_conditions_come_in_pairs(count: int) -> None:
     """Catches a third side tied to two, or a single one to nothing."""
