@@ -16,8 +16,13 @@ LARGEST_LENGTH = 1e6
 
 MOST_TURNS = 1e9
 
-AXIS_TOLERANCE = 1e-9
-"""Of the drawing's size: how far a node may be beyond the axis by rounding; it is put on it."""
+ON_AXIS = 1e-6
+"""Of the file's unit: a node this near to the axis is on it, as in FEMM. A gap of rounding's width, with no
+condition on its far side, would be a hole along the axis through which flux passes at will."""
+
+THINNEST_HOLE, ROUNDING = 1e-4, 1e-9
+"""Of the drawing's size: wider holes along the axis are meant, in a file of micrometres whose unit is the metre; less
+is rounding, in any unit."""
 
 ANGLE_TOLERANCE = 1e-9
 """Of 180 degrees: how far a half circle may be above it by rounding."""
@@ -87,10 +92,16 @@ def _node(row: Row, metres: float, properties: int) -> Node:
     return Node(x, y, row.reference(2, "The point property", properties), row.integer(3, "The group", 0))
 
 
+def axis_width(nodes: Sequence[Node]) -> float:
+    """In the file's unit: nodes nearer than this to the axis are on it."""
+    size = max((max(abs(node.x), abs(node.y)) for node in nodes), default=0.0)
+    return max(ROUNDING * size, min(ON_AXIS, THINNEST_HOLE * size))
+
+
 def _beside_the_axis(nodes: tuple[Node, ...], rows: Sequence[Row]) -> tuple[Node, ...]:
-    size = max(max(abs(node.x), abs(node.y)) for node in nodes)
+    least = -axis_width(nodes)
     for node, row in zip(nodes, rows, strict=True):
-        if node.x < -AXIS_TOLERANCE * size:
+        if node.x < least:
             raise row.error(f"A point's r must not be negative in an axisymmetric file; got {node.x:g}.")
     return tuple(replace(node, x=0.0) if node.x < 0 else node for node in nodes)
 

@@ -11,6 +11,7 @@ from fluxbore.design.bh_curve import MU_0, BHCurve
 from fluxbore.design.errors import SpecError, shown
 from fluxbore.fem.conditions import ConditionedMesh, Conditions, Mixed, Prescribed
 from fluxbore.fem.conductors import circuit, region_measure
+from fluxbore.fem.femm_drawing import axis_width
 from fluxbore.fem.femm_model import BlockLabel, BlockProperty, BoundaryProperty, FemmModel
 from fluxbore.fem.formula import Formula, parse_formula
 from fluxbore.fem.kelvin import KelvinExterior
@@ -43,9 +44,12 @@ def drawing(model: FemmModel) -> Drawing:
         curves.append(Curve(arc.start, arc.end, turn, size, _condition(model, arc.boundary)))
     seeds = [_seed(model, number, label) for number, label in enumerate(model.labels)]
     seeds += [Seed((hole.x * unit, hole.y * unit), HOLE) for hole in model.holes]
+    nodes = np.array([(node.x, node.y) for node in model.nodes], dtype=float).reshape(-1, 2)
+    if model.axisymmetric:
+        nodes[np.abs(nodes[:, 0]) < axis_width(model.nodes), 0] = 0.0
     outline = Outline(
         "axisymmetric" if model.axisymmetric else "planar",
-        np.array([(node.x, node.y) for node in model.nodes], dtype=float).reshape(-1, 2) * unit,
+        nodes * unit,
         tuple(curves),
         tuple(seeds),
         _pairs(model),

@@ -14,7 +14,7 @@ from manufactured import solved_levels
 
 from fluxbore.design.errors import FluxboreError, SpecError
 from fluxbore.fem.conditions import Mixed, Prescribed
-from fluxbore.fem.femm_model import FemmModel, PointProperty
+from fluxbore.fem.femm_model import FemmModel, Node, PointProperty, Segment
 from fluxbore.fem.femm_problem import drawing
 from fluxbore.fem.femm_solution import solve_model
 from fluxbore.fem.problem import Problem
@@ -89,6 +89,16 @@ def test_lengths_and_depth() -> None:
     drawn = drawing(found).outline
     assert drawn.points.max() == pytest.approx(0.254)
     assert drawn.unit == 0.0254
+
+
+@pytest.mark.parametrize("r, size, expected", [(1e-7, 10, 0), (1e-4, 10, 1e-4), (5e-7, 1e-4, 5e-7), (1e-14, 1e-4, 0)])
+def test_the_axis_is_a_millionth_of_a_unit_wide(r: float, size: float, expected: float) -> None:
+    """Catches a hole of nothing along the axis, by which a coil links 24 % more, and one that is meant filled in."""
+    made = Drawing(True)
+    made.nodes += [Node(r, 0), Node(size, 0), Node(size, size), Node(r, size)]
+    made.segments += [Segment(k, (k + 1) % 4) for k in range(4)]
+    points = drawing(made.model()).outline.points
+    assert points[[0, 3], 0] == pytest.approx([expected * 1e-3] * 2, rel=1e-12)
 
 
 def test_conditions() -> None:

@@ -228,6 +228,7 @@ def test_a_point_on_the_axis_but_for_rounding_is_put_on_it() -> None:
     """Catches a file refused for the last bit of a rotation."""
     text = TEXT.replace("planar", "axisymmetric")
     assert parse(text.replace("0\t0\t0\t0\n10", "-1e-13\t0\t0\t0\n10")).nodes[0].x == 0.0
+    assert parse(text.replace("0\t0\t0\t0\n10", "-9e-7\t0\t0\t0\n10")).nodes[0].x == 0.0
     with pytest.raises(SpecError, match=r"must not be negative in an axisymmetric file; got -0\.1"):
         parse(text.replace("0\t0\t0\t0\n10", "-0.1\t0\t0\t0\n10"))
 
