@@ -23,7 +23,7 @@ from fluxbore.fem.magnetostatics import Settings, Solution
 from fluxbore.fem.mesh import Floats, Mesh
 from fluxbore.fem.net_current import check_net_current
 from fluxbore.fem.outline import Outline
-from fluxbore.fem.probe import REACH, Probe, probe
+from fluxbore.fem.probe import Probe, locate, probe
 from fluxbore.fem.problem import Problem
 from fluxbore.fem.quadratic import quadratic_nodes
 from fluxbore.fem.recovery import RecoveredField
@@ -225,7 +225,7 @@ def _check_points(model: FemmModel, mesh: Mesh, places: Floats) -> None:
     """Refuse a point outside the model before the work."""
     if not places.size:
         return
-    elements, _ = Locator(mesh).find(places, reach=REACH)
+    elements, _ = locate(mesh, Locator(mesh), places)
     outside = np.flatnonzero(elements < 0)
     if outside.size:
         x, y = places[outside[0]] / model.metres

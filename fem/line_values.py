@@ -14,7 +14,7 @@ from fluxbore.fem.femm_solution import FemmSolution
 from fluxbore.fem.mesh import Floats
 from fluxbore.fem.paths import Path, Stations, integrate
 from fluxbore.fem.places import field_in
-from fluxbore.fem.probe import Probe
+from fluxbore.fem.probe import Probe, locate
 
 SAMPLES = 201
 """Of a table, where no number is asked for."""
@@ -24,9 +24,6 @@ INTEGRAL_ACCURACY = 1e-5
 
 _ASIDE = 1e-8
 """How far to the left of the path the field is taken, as a share of the mesh's diagonal; beyond the locator's snap."""
-
-_REACH = 1e-3
-"""How far outside the mesh a point may lie, as a share of its diagonal: between an arc and the edges that follow it."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -152,7 +149,7 @@ def _field(solution: FemmSolution, at: Stations) -> Probe:
     elements, places = locator.find(at.points + _ASIDE * size * at.normals)
     lost = np.flatnonzero(elements < 0)
     if lost.size:
-        elements[lost], places[lost] = locator.find(at.points[lost], _REACH)
+        elements[lost], places[lost] = locate(mesh, locator, at.points[lost])
     outside = np.flatnonzero(elements < 0)
     if outside.size:
         outline = solution.drawing.outline

@@ -10,11 +10,13 @@ from fluxbore.design.errors import SpecError
 from fluxbore.fem.element import from_frame, shape, to_frame
 from fluxbore.fem.locate import Locator
 from fluxbore.fem.magnetostatics import Solution, in_sheets
-from fluxbore.fem.mesh import Floats, Ints
+from fluxbore.fem.mesh import Floats, Ints, Mesh, in_space
 from fluxbore.fem.recovery import RecoveredField
 
-REACH = 1e-3
-"""A point this far outside, as a share of the mesh's diagonal, still counts: the elements cut arcs a little short."""
+REACH, NEAR = 1e-3, 0.05
+"""A point this far outside still counts, as a share of the mesh's diagonal and of the longest side of the element that
+it is next to: the elements cut arcs a little short. The side of 15 degrees of an arc, the longest there is, where it
+is left straight, by 0.033 of its length."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -37,7 +39,7 @@ def probe(solution: Solution, field: RecoveredField, locator: Locator, points: F
     Raises SpecError for a point outside the mesh.
     """
     mesh = solution.problem.mesh
-    elements, places = locator.find(points, reach=REACH)
+    elements, places = locate(mesh, locator, points)
     outside = np.flatnonzero(elements < 0)
     if outside.size:
         x, y = points[outside[0]]
@@ -53,6 +55,19 @@ def probe(solution: Solution, field: RecoveredField, locator: Locator, points: F
         h[mine] = field_strength(solution, int(index), b[mine], points[mine])
     # Adding zero turns −0 into 0.
     return Probe(potential, from_frame(mesh.chart, b) + 0.0, from_frame(mesh.chart, h) + 0.0, region)
+
+
+def locate(mesh: Mesh, locator: Locator, points: Floats) -> tuple[Ints, Floats]:
+    """As `Locator.find`: element (k,) and place (k, 3) of points (k, 2) in m, those next to an arc's sides included."""
+    elements, places = locator.find(points, reach=REACH)
+    held = np.flatnonzero(elements >= 0)
+    nodes = mesh.nodes[mesh.elements[elements[held]]]
+    found = in_space(mesh.chart, np.einsum("kn,knc->kc", shape(places[held]), nodes, optimize=True))
+    corners = in_space(mesh.chart, nodes[:, :3])
+    longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
+    far = held[np.hypot(*(found - points[held]).T) > NEAR * longest]
+    elements[far], places[far] = -1, np.nan
+    return elements, places
 
 
 def field_strength(solution: Solution, region: int, b: Floats, points: Floats) -> Floats:

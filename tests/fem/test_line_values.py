@@ -2,6 +2,7 @@
 
 import csv
 import sys
+from dataclasses import replace
 from functools import cache
 from pathlib import Path as File
 
@@ -13,6 +14,7 @@ sys.path.insert(0, str(File(__file__).parents[2] / "docs" / "validation"))
 from cases.drawing import Drawing
 
 from fluxbore.design.errors import SpecError
+from fluxbore.fem.femm_model import Hole
 from fluxbore.fem.femm_solution import FemmSolution, solve_model
 from fluxbore.fem.line_text import parse_line
 from fluxbore.fem.line_values import line_integrals, line_values
@@ -214,3 +216,16 @@ def test_what_is_no_line(text: str) -> None:
     with pytest.raises(SpecError, match="--line must be") as caught:
         parse_line(text, MM)
     assert "\n" not in str(caught.value)
+
+
+def test_a_line_across_a_pinhole() -> None:
+    """Catches values from a hole that is small beside the model."""
+    drawing = Drawing(axisymmetric=False)
+    inner, outer = drawing.boundary("inner", a0=0.01), drawing.boundary("outer")
+    drawing.circle(0, 0, 1000, outer, outer)
+    drawing.circle(0, 0, 0.5, inner, inner)
+    drawing.label(100, 0, drawing.material("air"))
+    found = solve_model(replace(drawing.model(), holes=(Hole(0, 0),)), accuracy=0.5)
+    assert np.all(np.isfinite(line_values(found, *parse_line("-4,-0.5:4,-0.5:5", MM)).field.potential)), "touches it"
+    with pytest.raises(SpecError, match=r"leaves it at \(0, 0.2\)"):
+        line_values(found, *parse_line("-4,0.2:4,0.2:5", MM))

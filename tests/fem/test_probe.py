@@ -1,6 +1,7 @@
 """A, B and H at points: exact in uniform fields, H by each material's own law, refusals in one sentence."""
 
 import sys
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
@@ -13,6 +14,7 @@ from cases import slabs
 from cases.drawing import MU_0, Drawing
 
 from fluxbore.design.errors import SpecError
+from fluxbore.fem.femm_model import Hole
 from fluxbore.fem.femm_solution import FemmSolution, solve_model
 
 B0 = 0.8
@@ -69,3 +71,40 @@ def test_point_outside() -> None:
     """Catches a value from nowhere."""
     with pytest.raises(SpecError, match=r"inside"):
         uniform(False).probe(np.array([(10.0, 10.0), (30.0, 10.0)]))
+
+
+@cache
+def around_a_pinhole() -> FemmSolution:
+    """A disc of a metre in radius with a hole of half a millimetre."""
+    drawing = Drawing(False)
+    inner, outer = drawing.boundary("inner", a0=0.01), drawing.boundary("outer")
+    drawing.circle(0, 0, 1000, outer, outer)
+    drawing.circle(0, 0, 0.5, inner, inner)
+    drawing.label(100, 0, drawing.material("Air"))
+    return solve_model(replace(drawing.model(), holes=(Hole(0, 0),)), accuracy=0.5)
+
+
+@pytest.mark.parametrize("x, y", [(0.0, 0.0), (0.1, 0.1), (0.0, 0.45), (1020.0, 0.0)])
+def test_point_in_a_hole_smaller_than_the_reach(x: float, y: float) -> None:
+    """Catches a field in nothing: 0.5 mm is less than a thousandth of the model, but four sides of its elements."""
+    with pytest.raises(SpecError, match=r"inside"):
+        around_a_pinhole().probe(np.array([(x, y)]))
+    with pytest.raises(SpecError, match=r"--point must lie inside"):
+        solve_model(around_a_pinhole().model, points=((x, y),))
+
+
+@pytest.mark.parametrize("axisymmetric, centre", [(False, 0.0), (True, 0.0), (True, 100.5)])
+def test_points_on_arcs(axisymmetric: bool, centre: float) -> None:
+    """Catches a rim refused where the elements are a little inside it: circles, a ball, and a ring beside the axis."""
+    drawing = Drawing(axisymmetric)
+    if axisymmetric and not centre:
+        drawing.half_disc(100)
+    else:
+        drawing.circle(centre, 0, 100)
+    drawing.label(centre + 1, 0, drawing.material("Air"))
+    turn = np.pi if axisymmetric and not centre else 2 * np.pi
+    angle = np.linspace(0, turn, 501) - np.pi / 2
+    r = centre + 100 * np.cos(angle)
+    rim = np.column_stack((np.maximum(r, 0) if axisymmetric else r, 100 * np.sin(angle)))
+    found = solve_model(drawing.model(), accuracy=0.5).probe(rim)
+    assert np.all(found.region == 0)
