@@ -8,6 +8,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator, Sequence
+from functools import partial
 from pathlib import Path
 
 import femm_models
@@ -16,6 +17,7 @@ import pytest
 from fluxbore import model_sweep
 from fluxbore.cli import main
 from fluxbore.design.errors import FluxboreError, OutputError
+from fluxbore.fem.magnetostatics import Settings
 from fluxbore.model_sweep import ModelSweep, run_sweep
 from fluxbore.optimize.executor import Outcome, SerialExecutor
 from fluxbore.optimize.journal import Journal
@@ -100,6 +102,21 @@ def test_set_holds_in_every_row_and_before_the_sweep(here, capsys):
     (row,) = answer(capsys, "axi.fem", *sweep)["rows"]
     alone = answer(capsys, "axi.fem", "--set", f"{CURRENT}=4", "--set", f"{LIFT}=2", *ROUGH)
     assert row["energy"] == alone["energy"]
+
+
+def test_rows_that_did_not_converge_have_empty_cells(here, capsys, monkeypatch):
+    """Catches zeros in a table, which a plot takes for the field of no current."""
+    monkeypatch.setattr("fluxbore.fem.femm_solution.Settings", partial(Settings, max_iterations=0))
+    for file, key in (("iron.fem", CURRENT), ("planar.fem", "circuit.coil.current")):
+        arguments = (file, "--sweep", f"{key}=20:40:20", "--group", "1", "--point", "1,12", "-o", file[:-4], *ROUGH)
+        found = answer(capsys, *arguments, status=3)
+        assert found["status"] == "failed"
+        for row, told in zip(table_of(found["file"]), found["rows"], strict=True):
+            assert row["status"] == "failed"
+            assert row["reason"].startswith("Newton's iteration ended")
+            filled = {name for name, cell in row.items() if cell}
+            assert filled == {key, "unknowns", "status", "reason"}
+            assert {name for name, value in told.items() if value is not None} == filled
 
 
 def test_planar_rows_have_both_components_and_the_torque(here, capsys):

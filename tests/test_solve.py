@@ -225,14 +225,23 @@ def test_text_for_people(capsys):
 
 
 def test_no_convergence_is_a_status(answer, monkeypatch, capsys):
-    """Catches figures of an unfinished iteration that are given as if they were a solution."""
+    """Catches figures of an unfinished iteration that are given as if they were a solution: zero, more or less zero."""
+    good = answer("iron.fem", "--group", "1", "--point", "1,2")
     monkeypatch.setattr("fluxbore.fem.femm_solution.Settings", partial(Settings, max_iterations=1))
-    found = answer("iron.fem", "--group", "1", status=3)
+    found = answer("iron.fem", "--group", "1", "--point", "1,2", status=3)
     assert found["convergence"]["status"] != "converged"
     assert len(found["warnings"]) == 1
     assert found["inductances"] == {}
-    assert main(["solve", "iron.fem", *ROUGH]) == 3
-    assert "warning: " in capsys.readouterr().out
+    assert (found["energy"], found["coenergy"]) == (None, None)
+    assert found["circuits"][femm_models.SPULE] == {"current": 50.0, "flux_linkage": None}
+    assert found["groups"]["1"] == dict.fromkeys(good["groups"]["1"])
+    assert found["points"] == [{**dict.fromkeys(good["points"][0]), "at": [1.0, 2.0]}]
+    assert main(["solve", "iron.fem", *ROUGH, "--group", "1", "--point", "1,2", "--line", "0,0:4,0"]) == 3
+    out = capsys.readouterr().out.splitlines()
+    assert out[1].startswith("Newton iteration limit in one step")
+    assert out[2] == "no figures: the solution did not converge"
+    assert out[3].startswith("warning: ")
+    assert len(out) == 4
 
 
 def test_figures_that_are_no_numbers_are_null(answer, monkeypatch):

@@ -234,7 +234,9 @@ def _row(task: tuple[ModelSweep, Values]) -> Row:
     }
 
 
-def _figures(plain: Mapping[str, Any]) -> Iterator[tuple[str, float]]:
+def _figures(plain: Mapping[str, Any]) -> Iterator[tuple[str, float | None]]:
+    """None for what there is not, so that a failed row has the columns of the others, and empty cells in the table."""
+    nothing = None, None
     yield "energy", plain["energy"]
     yield "coenergy", plain["coenergy"]
     for name, circuit in plain["circuits"].items():
@@ -242,17 +244,19 @@ def _figures(plain: Mapping[str, Any]) -> Iterator[tuple[str, float]]:
         yield f"circuit.{name}.flux_linkage", circuit["flux_linkage"]
     axisymmetric = plain["problem"]["type"] == "axisymmetric"
     for number, group in plain["groups"].items():
+        along = group["force"] or nothing
         if axisymmetric:
-            yield f"group.{number}.force.z", group["force"][1]
+            yield f"group.{number}.force.z", along[1]
         else:
-            yield f"group.{number}.force.x", group["force"][0]
-            yield f"group.{number}.force.y", group["force"][1]
+            yield f"group.{number}.force.x", along[0]
+            yield f"group.{number}.force.y", along[1]
             yield f"group.{number}.torque", group["torque"]
         yield f"group.{number}.force_error", group["force_error"]
     first, second = ("r", "z") if axisymmetric else ("x", "y")
     for number, point in enumerate(plain["points"], start=1):
-        yield f"point.{number}.B.{first}", point["B"][0]
-        yield f"point.{number}.B.{second}", point["B"][1]
+        b = point["B"] or nothing
+        yield f"point.{number}.B.{first}", b[0]
+        yield f"point.{number}.B.{second}", b[1]
         yield f"point.{number}.A", point["A"]
     yield "unknowns", plain["mesh"]["unknowns"]
     if plain["accuracy"]["estimate"] is not None:

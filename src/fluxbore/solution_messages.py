@@ -12,16 +12,27 @@ from fluxbore.design.errors import one_line
 from fluxbore.fem.femm_model import FemmModel
 from fluxbore.fem.femm_solution import FemmSolution, GroupForce
 
+FORCE = (
+    "force",
+    "torque",
+    "force_error",
+    "force_by_virtual_work",
+    "torque_by_virtual_work",
+    "force_by_lorentz",
+    "torque_by_lorentz",
+)
+"""The figures of a group, in the order of the JSON."""
+
 
 def solution_plain(
     solution: FemmSolution, groups: Sequence[int] = (), points: Sequence[tuple[float, float]] = ()
 ) -> dict[str, Any]:
-    """The JSON object of a solution: SI units, points in the file's unit."""
+    """The JSON object of a solution: SI units, points in the file's unit; None for all figures of one that failed."""
     model, convergence = solution.model, solution.solution.convergence
     mesh = solution.solution.problem.mesh
-    energy, coenergy = solution.energies
-    linkages = solution.linkages
-    forces = {group: solution.force(group) for group in groups}
+    energy, coenergy = solution.energies if convergence.converged else (None, None)
+    linkages = solution.linkages.tolist() if convergence.converged else [None] * len(model.circuits)
+    forces = {group: _force(solution, group) for group in groups}
     return {
         "problem": {
             "type": "axisymmetric" if model.axisymmetric else "planar",
@@ -43,11 +54,11 @@ def solution_plain(
         "energy": energy,
         "coenergy": coenergy,
         "circuits": {
-            name: {"current": item.current, "flux_linkage": float(linkage)}
+            name: {"current": item.current, "flux_linkage": linkage}
             for name, item, linkage in zip(circuit_names(model), model.circuits, linkages, strict=True)
         },
         "inductances": inductances_plain(solution),
-        "groups": {str(group): _force_plain(solution, force) for group, force in forces.items()},
+        "groups": {str(group): _force_plain(force) for group, force in forces.items()},
         "points": _points_plain(solution, points),
         "warnings": list(warnings(solution, forces)),
     }
@@ -97,19 +108,20 @@ def inductances_plain(solution: FemmSolution) -> dict[str, dict[str, float]]:
     return {name: {other: float(table[i, j]) for j, other in enumerate(names)} for i, name in enumerate(names)}
 
 
-def warnings(solution: FemmSolution, forces: dict[int, GroupForce]) -> list[str]:
+def warnings(solution: FemmSolution, forces: Mapping[int, GroupForce | None]) -> list[str]:
     """What a reader of the figures should know, each in a sentence."""
-    found = []
     if not solution.solution.convergence.converged:
-        found.append(solution.solution.convergence.sentence())
-    elif not solution.adapted.reached:
-        worst = max(solution.adapted.levels[-1].estimates, key=lambda estimate: estimate.relative)
+        return [solution.solution.convergence.sentence()]
+    found = []
+    estimates = solution.adapted.levels[-1].estimates
+    if not solution.adapted.reached:
+        worst = max(estimates, key=lambda estimate: estimate.relative)
         found.append(
             f"The accuracy of {solution.accuracy * 100:g} % was not reached with "
             f"{solution.solution.problem.mesh.topology.unknowns} unknowns; the estimate is "
             f"{worst.relative * 100:.2g} % ({worst.name})."
         )
-    elif not solution.adapted.levels[-1].estimates:
+    elif not estimates:
         found.append(
             "The energy of point currents is infinite: without --group, --point or a coil there is no figure to refine "
             "the mesh for."
@@ -117,6 +129,8 @@ def warnings(solution: FemmSolution, forces: dict[int, GroupForce]) -> list[str]
     for x, y in solution.corners:
         found.append(f"({x:g}, {y:g}) is a corner of a magnetic block: the field there has no finite value.")
     for group, force in forces.items():
+        if force is None:
+            continue
         if not force.defined and not force.touches:
             found.append(f"Group {group} has no air around it; there is nothing that could pull on it.")
         if not force.defined and force.touches:
@@ -139,7 +153,6 @@ def finite(value: Any) -> Any:
 
 def solution_text(plain: Mapping[str, Any]) -> str:
     """A few lines for a person, of `solution_plain`'s object and whatever else was asked."""
-    axisymmetric = plain["problem"]["type"] == "axisymmetric"
     mesh, accuracy, convergence = plain["mesh"], plain["accuracy"], plain["convergence"]
     estimate = accuracy["estimate"]
     lines = [
@@ -147,8 +160,17 @@ def solution_text(plain: Mapping[str, Any]) -> str:
         f"{mesh['unknowns']} unknowns",
         f"Newton {convergence['status']} in {_steps(convergence['iterations'])} on the last of "
         f"{len(accuracy['levels'])} meshes" + ("" if estimate is None else f"; estimated error {estimate * 100:.2g} %"),
-        f"energy {plain['energy']:.6g} J, coenergy {plain['coenergy']:.6g} J",
     ]
+    lines += _figures(plain) if convergence["status"] == "converged" else ["no figures: the solution did not converge"]
+    lines += [f"wrote {name}" for name in plain.get("files", ())]
+    lines += [f"warning: {sentence}" for sentence in plain["warnings"]]
+    return "\n".join(one_line(line) for line in lines)  # names are the file's, and may hold what steers a terminal
+
+
+def _figures(plain: Mapping[str, Any]) -> list[str]:
+    """A line for each."""
+    axisymmetric = plain["problem"]["type"] == "axisymmetric"
+    lines = [f"energy {plain['energy']:.6g} J, coenergy {plain['coenergy']:.6g} J"]
     for name, circuit in plain["circuits"].items():
         own = plain["inductances"].get(name, {}).get(name)
         lines.append(
@@ -156,6 +178,9 @@ def solution_text(plain: Mapping[str, Any]) -> str:
             + ("" if own is None else f", incremental inductance {own:.6g} H")
         )
     for number, group in plain["groups"].items():
+        if group["force"] is None:
+            lines.append(f"group {number}: no force")
+            continue
         first, second = group["force"]
         words = f"axial {second:.6g} N" if axisymmetric else f"x {first:.6g} N, y {second:.6g} N"
         turning = "" if axisymmetric else f", torque {group['torque']:.6g} N m"
@@ -177,9 +202,7 @@ def solution_text(plain: Mapping[str, Any]) -> str:
     for group, integrals in plain.get("integrals", {}).items():
         lines.append("integrals of all blocks:" if group == "all" else f"integrals of group {group}:")
         lines += [f"  {name.replace('_', ' ')} {_numbers(value)}" for name, value in integrals.items()]
-    lines += [f"wrote {name}" for name in plain.get("files", ())]
-    lines += [f"warning: {sentence}" for sentence in plain["warnings"]]
-    return "\n".join(one_line(line) for line in lines)  # names are the file's, and may hold what steers a terminal
+    return lines
 
 
 def _numbers(value: float | Sequence[float]) -> str:
@@ -191,22 +214,30 @@ def _steps(count: int) -> str:
     return "one step" if count == 1 else f"{count} steps"
 
 
-def _force_plain(solution: FemmSolution, force: GroupForce) -> dict[str, Any]:
-    return {
-        "force": list(force.value.force),
-        "torque": force.value.torque,
-        # Between bodies in contact no route tells anything of another.
-        "force_error": force.error if force.defined else None,
-        "force_by_virtual_work": list(force.by_layer.force) if force.value is force.by_stress else None,
-        "torque_by_virtual_work": force.by_layer.torque if force.value is force.by_stress else None,
-        "force_by_lorentz": None if force.lorentz is None else list(force.lorentz.force),
-        "torque_by_lorentz": None if force.lorentz is None else force.lorentz.torque,
-    }
+def _force(solution: FemmSolution, group: int) -> GroupForce | None:
+    """None where the solution failed."""
+    if not solution.solution.convergence.converged:
+        return None
+    return solution.force(group)
+
+
+def _force_plain(force: GroupForce | None) -> dict[str, Any]:
+    if force is None:
+        return dict.fromkeys(FORCE)
+    routes = force.by_layer if force.value is force.by_stress else None, force.lorentz
+    # Between bodies in contact no route tells anything of another.
+    values: list[Any] = [list(force.value.force), force.value.torque, force.error if force.defined else None]
+    for route in routes:
+        values += [None, None] if route is None else [list(route.force), route.torque]
+    return dict(zip(FORCE, values, strict=True))
 
 
 def _points_plain(solution: FemmSolution, points: Sequence[tuple[float, float]]) -> list[dict[str, Any]]:
     if not points:
         return []
+    if not solution.solution.convergence.converged:
+        names = ("A", "B", "H", "flux") if solution.model.axisymmetric else ("A", "B", "H")
+        return [{"at": list(at), **dict.fromkeys(names)} for at in points]
     found = solution.probe(np.array(points, dtype=float))
     rows = []
     for at, a, b, h in zip(points, found.potential, found.flux_density, found.field_strength, strict=True):
