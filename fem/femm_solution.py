@@ -38,10 +38,10 @@ LOCAL_SLACK = 3.0
 """The elements' own field at a point may be this much worse than the accuracy: the recovered one is given."""
 
 MAX_UNKNOWNS = 200_000
-"""Where refinement for an accuracy that was asked for ends; it then says that the accuracy was not reached."""
+"""Where refinement for more than the default accuracy ends; it then says that the accuracy was not reached."""
 
 MOST_LEVELS, MODEST_LEVELS = 25, 12
-"""Meshes in all, for an accuracy that was asked for and for the default one."""
+"""Meshes in all, for more than the default accuracy and for the rest."""
 
 MODEST_UNKNOWNS, MODEST_GROWTH = 30_000, 1.5
 """Where refinement for the default accuracy ends: so many, or so many times those of the file's own mesh sizes."""
@@ -202,10 +202,11 @@ def solve_model(
         if not corner[number]:
             at = f"B at point {number + 1}"
             goals += [PointGoal(at, (x, y)), PointGoal(f"{at}, across", (x, y), across=True)]
-    max_levels = MODEST_LEVELS if accuracy is None else MOST_LEVELS
+    modest = accuracy is None or accuracy >= DEFAULT_ACCURACY
+    max_levels = MODEST_LEVELS if modest else MOST_LEVELS
     if max_unknowns is None:
-        modest = max(MODEST_UNKNOWNS, int(MODEST_GROWTH * first.mesh.topology.unknowns))
-        max_unknowns = modest if accuracy is None else MAX_UNKNOWNS
+        few = max(MODEST_UNKNOWNS, int(MODEST_GROWTH * first.mesh.topology.unknowns))
+        max_unknowns = few if modest else MAX_UNKNOWNS
     accuracy = DEFAULT_ACCURACY if accuracy is None else accuracy
     adapted = solve_adaptively(
         discretise,
