@@ -15,7 +15,7 @@ import numpy as np
 
 from fluxbore.fem.bisection import prepare, refine
 from fluxbore.fem.element import flux_density_squared, shape
-from fluxbore.fem.linear import Factor
+from fluxbore.fem.linear import Factor, SingularMatrixError
 from fluxbore.fem.magnetostatics import Settings, Solution, in_sheets, solve
 from fluxbore.fem.mesh import Floats, Ints, Mesh
 from fluxbore.fem.outline import Outline
@@ -111,6 +111,8 @@ def solve_adaptively(
 ) -> Adapted:
     """Refine until every goal's estimated relative error is below ``accuracy``, or the unknowns run out.
 
+    It also ends, without estimates of the last mesh, where a goal's linear equations cannot be solved.
+
     watched : (m,) each element's own relative error where a point is asked for, zero elsewhere.
     """
     triangulation = prepare(triangulation)
@@ -125,17 +127,21 @@ def solve_adaptively(
         if not solution.convergence.converged:
             levels.append(_level(solution, ()))
             return Adapted(solution, field, triangulation, tuple(levels), False)
-        indicators, estimates = _estimates(solution, patches, field, goals, accuracy)
-        if watched is not None:
+        try:
+            indicators, estimates = _estimates(solution, patches, field, goals, accuracy)
+            known = True
+        except SingularMatrixError:  # the field stands, but nothing says how good its figures are, or where it is not
+            indicators, estimates, known = np.zeros(mesh.region.size), (), False
+        if watched is not None and known:
             local = watched(solution, field)
             estimates = (*estimates, Estimate("points", 0.0, float(local.max()), float(local.max())))
             indicators = indicators + np.where(local > accuracy, local / accuracy, 0.0) ** 2
         levels.append(_level(solution, estimates))
         marked = _marked(indicators)
-        reached = levels[-1].worst <= accuracy
+        reached = known and levels[-1].worst <= accuracy
         # Each marked triangle becomes four, and closure adds about as many again.
         full = len(levels) >= max_levels or mesh.topology.unknowns + 8 * int(marked.sum()) > max_unknowns
-        full |= _hopeless([level.worst for level in levels])
+        full |= not known or _hopeless([level.worst for level in levels])
         if reached or full:
             final = solve(problem, settings, solution.psi)
             iterations = solution.convergence.iterations + final.convergence.iterations

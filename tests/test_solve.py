@@ -16,6 +16,7 @@ import fluxbore
 from fluxbore.cli import main
 from fluxbore.fem.femm_model import CircuitProperty
 from fluxbore.fem.femm_writer import write_text
+from fluxbore.fem.linear import SingularMatrixError
 from fluxbore.fem.magnetostatics import Settings
 
 CURRENT = f"circuit.{femm_models.SPULE}.current"
@@ -242,6 +243,38 @@ def test_no_convergence_is_a_status(answer, monkeypatch, capsys):
     assert out[2] == "no figures: the solution did not converge"
     assert out[3].startswith("warning: ")
     assert len(out) == 4
+
+
+def unsolvable(*_):
+    raise SingularMatrixError("on purpose")
+
+
+@pytest.mark.parametrize(
+    "place, missing, words",
+    [
+        ("fem.femm_solution.FemmSolution.inductances", "inductances", "There are no incremental inductances: "),
+        ("fem.femm_solution.FemmSolution.force", "groups", "There is no force on group 1: "),
+        ("fem.adapt._estimates", "accuracy", "The accuracy of 20 % could not be checked: "),
+    ],
+)
+def test_figures_whose_equations_have_no_solution(place, missing, words, answer, monkeypatch, capsys):
+    """Catches a traceback, and all figures given up for one."""
+    monkeypatch.setattr(f"fluxbore.{place}", unsolvable)
+    found = answer("axi.fem", "--group", "1")
+    assert found["warnings"] == [f"{words}its linear equations could not be solved."]
+    assert (found["inductances"] == {}) == (missing == "inductances")
+    assert (found["groups"]["1"]["force"] is None) == (missing == "groups")
+    assert (found["accuracy"]["estimate"] is None) == (missing == "accuracy")
+    assert found["energy"] > 0
+    assert main(["solve", "axi.fem", *ROUGH, "--group", "1"]) == 0
+    assert ("group 1: no force\n" in capsys.readouterr().out) == (missing == "groups")
+
+
+def test_equations_without_a_solution_are_one_sentence(monkeypatch, capsys):
+    """Catches the traceback of a solver's own error."""
+    monkeypatch.setattr("fluxbore.solving.solve_model", unsolvable)
+    assert main(["solve", "axi.fem"]) == 2
+    assert capsys.readouterr().err == "fluxbore: axi.fem: its equations could not be solved: on purpose.\n"
 
 
 def test_figures_that_are_no_numbers_are_null(answer, monkeypatch):

@@ -11,6 +11,7 @@ import numpy as np
 from fluxbore.design.errors import one_line
 from fluxbore.fem.femm_model import FemmModel
 from fluxbore.fem.femm_solution import FemmSolution, GroupForce
+from fluxbore.fem.linear import SingularMatrixError
 
 FORCE = (
     "force",
@@ -23,6 +24,8 @@ FORCE = (
 )
 """The figures of a group, in the order of the JSON."""
 
+UNSOLVED = "its linear equations could not be solved"
+
 
 def solution_plain(
     solution: FemmSolution, groups: Sequence[int] = (), points: Sequence[tuple[float, float]] = ()
@@ -33,6 +36,7 @@ def solution_plain(
     energy, coenergy = solution.energies if convergence.converged else (None, None)
     linkages = solution.linkages.tolist() if convergence.converged else [None] * len(model.circuits)
     forces = {group: _force(solution, group) for group in groups}
+    inductances = inductances_plain(solution)
     return {
         "problem": {
             "type": "axisymmetric" if model.axisymmetric else "planar",
@@ -57,10 +61,10 @@ def solution_plain(
             name: {"current": item.current, "flux_linkage": linkage}
             for name, item, linkage in zip(circuit_names(model), model.circuits, linkages, strict=True)
         },
-        "inductances": inductances_plain(solution),
+        "inductances": inductances or {},
         "groups": {str(group): _force_plain(force) for group, force in forces.items()},
         "points": _points_plain(solution, points),
-        "warnings": list(warnings(solution, forces)),
+        "warnings": list(warnings(solution, forces, inductances)),
     }
 
 
@@ -99,22 +103,36 @@ def accuracy_plain(solution: FemmSolution) -> dict[str, Any]:
     }
 
 
-def inductances_plain(solution: FemmSolution) -> dict[str, dict[str, float]]:
-    """Incremental inductances, by the names of both circuits (H)."""
+def inductances_plain(solution: FemmSolution) -> dict[str, dict[str, float]] | None:
+    """Incremental inductances, by the names of both circuits (H); None where the solution has none."""
     names = circuit_names(solution.model)
     if not names or not solution.solution.convergence.converged:
         return {}
-    table = solution.inductances()
+    try:
+        table = solution.inductances()
+    except SingularMatrixError:
+        return None
     return {name: {other: float(table[i, j]) for j, other in enumerate(names)} for i, name in enumerate(names)}
 
 
-def warnings(solution: FemmSolution, forces: Mapping[int, GroupForce | None]) -> list[str]:
-    """What a reader of the figures should know, each in a sentence."""
+def warnings(
+    solution: FemmSolution,
+    forces: Mapping[int, GroupForce | None],
+    inductances: Mapping[str, Mapping[str, float]] | None,
+) -> list[str]:
+    """What a reader of the figures should know, each in a sentence.
+
+    forces, inductances : with None for what there is not.
+    """
     if not solution.solution.convergence.converged:
         return [solution.solution.convergence.sentence()]
     found = []
+    if inductances is None:
+        found.append(f"There are no incremental inductances: {UNSOLVED}.")
     estimates = solution.adapted.levels[-1].estimates
-    if not solution.adapted.reached:
+    if not solution.adapted.reached and not estimates:
+        found.append(f"The accuracy of {solution.accuracy * 100:g} % could not be checked: {UNSOLVED}.")
+    elif not solution.adapted.reached:
         worst = max(estimates, key=lambda estimate: estimate.relative)
         found.append(
             f"The accuracy of {solution.accuracy * 100:g} % was not reached with "
@@ -130,6 +148,7 @@ def warnings(solution: FemmSolution, forces: Mapping[int, GroupForce | None]) ->
         found.append(f"({x:g}, {y:g}) is a corner of a magnetic block: the field there has no finite value.")
     for group, force in forces.items():
         if force is None:
+            found.append(f"There is no force on group {group}: {UNSOLVED}.")
             continue
         if not force.defined and not force.touches:
             found.append(f"Group {group} has no air around it; there is nothing that could pull on it.")
@@ -215,10 +234,13 @@ def _steps(count: int) -> str:
 
 
 def _force(solution: FemmSolution, group: int) -> GroupForce | None:
-    """None where the solution failed."""
+    """None where the solution failed, or where the weight's equations have none."""
     if not solution.solution.convergence.converged:
         return None
-    return solution.force(group)
+    try:
+        return solution.force(group)
+    except SingularMatrixError:
+        return None
 
 
 def _force_plain(force: GroupForce | None) -> dict[str, Any]:

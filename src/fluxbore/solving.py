@@ -10,6 +10,7 @@ from fluxbore.design.errors import MeshError, SpecError, one_line, shown
 from fluxbore.fem.femm_model import FemmModel
 from fluxbore.fem.femm_reader import read_model
 from fluxbore.fem.femm_solution import FemmSolution, solve_model
+from fluxbore.fem.linear import SingularMatrixError
 from fluxbore.fem.threads import one_thread
 
 TIGHTEST_ACCURACY, LOOSEST_ACCURACY = 1e-6, 0.5
@@ -53,10 +54,12 @@ def solve(
             return solve_model(read, groups, places, accuracy, max_unknowns, open_plane)
     except MeshError as error:
         raise MeshError(_sentence(read, str(error))) from error
+    except SingularMatrixError as error:
+        raise SpecError(_sentence(read, f"its equations could not be solved: {error}")) from error
 
 
 def _sentence(model: FemmModel, words: str) -> str:
-    """What cannot be meshed, with the file's name: the mesh knows the drawing alone."""
+    """What cannot be meshed or solved, with the file's name: the mesh knows the drawing alone."""
     file = one_line(Path(model.path).name)
     return (f"{file}: {words}" if file else words[:1].upper() + words[1:]).removesuffix(".") + "."
 

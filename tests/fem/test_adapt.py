@@ -3,6 +3,7 @@
 import sys
 from functools import cache
 from pathlib import Path
+from typing import NoReturn
 
 import numpy as np
 import pytest
@@ -16,6 +17,7 @@ from fluxbore.fem.adapt import tangent_product
 from fluxbore.fem.bisection import signed_area
 from fluxbore.fem.femm_model import FemmModel
 from fluxbore.fem.femm_solution import FemmSolution, solve_model
+from fluxbore.fem.linear import SingularMatrixError
 
 
 def corner() -> FemmModel:
@@ -98,3 +100,18 @@ def test_tangent_product_of_steel() -> None:
     middle, up, down = (energy_densities(system, psi + k * step)[0] for k in (0, 1, -1))
     field = 1e-3 * found.flux_density()
     assert tangent_product(found, field, field).sum() == pytest.approx((up - 2 * middle + down).sum(), rel=1e-3)
+
+
+def test_ends_where_a_goal_has_no_estimate(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Catches an adjoint without a solution that takes the field along with it, or that counts as accuracy reached."""
+    model = iron.saturated_ring().model
+
+    def unsolvable(*_: object) -> NoReturn:
+        raise SingularMatrixError("on purpose")
+
+    monkeypatch.setattr("fluxbore.fem.adapt._estimates", unsolvable)
+    found = solve_model(model, accuracy=0.5, points=((30.0, 0.0),))
+    assert found.solution.convergence.converged
+    assert found.solution.convergence.residual < 1e-8
+    assert not found.adapted.reached
+    assert [level.estimates for level in found.adapted.levels] == [()]
