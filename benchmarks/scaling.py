@@ -97,7 +97,7 @@ def outline(side: float) -> Outline:
 def line(unknowns: int) -> Problem:
     """The problem at about this many unknowns."""
     cuts = max(0, math.ceil(math.log(unknowns / COARSE, 4)))
-    drawn = outline(2**cuts * math.sqrt(math.pi / 4 * RADII[-1] ** 2 / (0.73 * unknowns)))
+    drawn = outline(2**cuts * math.sqrt(math.pi / 4 * RADII[-1] ** 2 / (0.82 * unknowns)))
     triangulation = triangulate(drawn)
     for _ in range(cuts):
         triangulation = refine_all(triangulation, drawn).triangulation
