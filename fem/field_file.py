@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from fluxbore.fem.femm_solution import FemmSolution
 from fluxbore.fem.mesh import Floats, Ints
-from fluxbore.fem.places import field_in
+from fluxbore.fem.probe import field_in
 
 QUADRATIC_TRIANGLE = 22
 

@@ -13,8 +13,7 @@ from fluxbore.design.errors import SpecError
 from fluxbore.fem.femm_solution import FemmSolution
 from fluxbore.fem.mesh import Floats
 from fluxbore.fem.paths import Path, Stations, integrate
-from fluxbore.fem.places import field_in
-from fluxbore.fem.probe import Probe, locate
+from fluxbore.fem.probe import Probe, field_in, locate
 
 SAMPLES = 201
 """Of a table, where no number is asked for."""

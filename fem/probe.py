@@ -44,8 +44,22 @@ def probe(solution: Solution, field: RecoveredField, locator: Locator, points: F
     if outside.size:
         x, y = points[outside[0]]
         raise SpecError(f"A point must lie inside the model; ({x:g}, {y:g}) m does not.")
-    potential = np.einsum("kn,kn->k", shape(places), solution.psi[mesh.elements[elements]], optimize=True)
-    b = field.at(elements, places)
+    return field_in(solution, field, elements, places, points)
+
+
+def field_in(
+    solution: Solution, field: RecoveredField, elements: Ints, barycentric: Floats, points: Floats | None = None
+) -> Probe:
+    """The field in k elements (k,), on the side of an interface that they are on; barycentric : (k, 3) place in each.
+
+    points : (k, 2) m, where the places are, if that is known better than the elements tell.
+    """
+    mesh = solution.problem.mesh
+    nodes = mesh.elements[elements]
+    values = shape(barycentric)
+    if points is None:
+        points = in_space(mesh.chart, np.einsum("kn,knc->kc", values, mesh.nodes[nodes], optimize=True))
+    b = field.at(elements, barycentric)
     if mesh.chart == "axisymmetric":
         b[points[:, 0] == 0, 1] = 0.0  # row 1 of the frame is the radial one
     h = np.empty_like(b)
@@ -53,6 +67,7 @@ def probe(solution: Solution, field: RecoveredField, locator: Locator, points: F
     for index in np.unique(region):
         mine = region == index
         h[mine] = field_strength(solution, int(index), b[mine], points[mine])
+    potential = np.einsum("kn,kn->k", values, solution.psi[nodes], optimize=True)
     # Adding zero turns −0 into 0.
     return Probe(potential, from_frame(mesh.chart, b) + 0.0, from_frame(mesh.chart, h) + 0.0, region)
 

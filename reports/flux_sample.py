@@ -10,7 +10,7 @@ import numpy as np
 from fluxbore.fem.element import shape
 from fluxbore.fem.femm_solution import FemmSolution
 from fluxbore.fem.mesh import Floats, Ints, in_space
-from fluxbore.fem.places import field_in
+from fluxbore.fem.probe import field_in
 
 MARGIN = 0.3
 """Of what is not air, on each side of it, as a share of its larger side."""
