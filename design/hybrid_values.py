@@ -120,3 +120,12 @@ def check_window(values: Values) -> None:
             f"operating_point.last_position must not be below operating_point.first_position {shown(first)}; "
             f"got {shown(last)}."
         )
+
+
+def positions(values: Values) -> tuple[float, ...]:
+    """The window of positions (m) over which figures are averaged, both ends included."""
+    first, last = (float(values[f"operating_point.{name}_position"]) for name in ("first", "last"))
+    count = int(values["operating_point.positions"])
+    if count == 1:
+        return ((first + last) / 2,)
+    return tuple(first + (last - first) * i / (count - 1) for i in range(count))

@@ -11,7 +11,6 @@ from typing import Any
 
 from fluxbore.design import hybrid_keys, hybrid_values
 from fluxbore.design.errors import SpecError
-from fluxbore.design.hybrid import HybridActuator
 from fluxbore.design.keys import Alternatives, Key, Value, Values
 from fluxbore.design.materials import Material
 from fluxbore.design.study import Study
@@ -22,7 +21,8 @@ class Kind:
     """A kind of actuator as specifications see it.
 
     keys, alternatives : what may be given, and which of it excludes one another. resolve, from_values : how given
-    values become all values, and those the parameters. materials : key -> the kind of material it must name.
+    values become all values, and those the parameters, a frozen dataclass of the kind's own. materials : key -> the
+    kind of material it must name.
     non_magnetic : keys that must not name a soft iron.
     check : of the resolved values, beyond what the parameters themselves refuse; raises SpecError.
     """
@@ -31,7 +31,7 @@ class Kind:
     keys: tuple[Key, ...]
     alternatives: tuple[Alternatives, ...]
     resolve: Callable[[Values], dict[str, Value]]
-    from_values: Callable[[Values], HybridActuator]
+    from_values: Callable[[Values], Any]
     materials: Mapping[str, type[Material]] = field(default_factory=dict)
     non_magnetic: frozenset[str] = frozenset()
     check: Callable[[Values], None] | None = None
@@ -94,18 +94,9 @@ class Spec:
         return self.kind.resolve(self.given)
 
     @cached_property
-    def actuator(self) -> HybridActuator:
-        """The parameters as frozen data. Raises DesignError where they cannot be built."""
+    def actuator(self) -> Any:
+        """The parameters as the frozen data of the kind. Raises DesignError where they cannot be built."""
         return self.kind.from_values(self.values)
-
-    @property
-    def positions(self) -> tuple[float, ...]:
-        """The window of positions (m) over which figures are averaged."""
-        first, last = self.number("operating_point.first_position"), self.number("operating_point.last_position")
-        count = int(self.number("operating_point.positions"))
-        if count == 1:
-            return ((first + last) / 2,)
-        return tuple(first + (last - first) * i / (count - 1) for i in range(count))
 
     def number(self, key: str) -> float:
         """The SI value of a numeric key."""

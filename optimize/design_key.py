@@ -20,10 +20,11 @@ ROOMS = ("design", "fem", "geometry", "optimize")
 _CALCULATORS = ("numpy", "scipy")
 
 
-def design_key(spec: Spec, fidelity: str, evaluate: Callable[..., Any]) -> str:
+def design_key(spec: Spec, fidelity: str, evaluate: Callable[..., Any], gradient: Sequence[str] = ()) -> str:
     """SHA-256 of the design's values (solver settings among them), its materials, the route and the program.
 
-    evaluate : the function that gives the figures; its name is part of the key.
+    evaluate : the function that gives the figures; its name is part of the key. gradient : the keys by which
+    derivatives are wanted, and with them what is held: derivatives depend on which of the alternatives are given.
     """
     content = {
         "kind": spec.kind.name,
@@ -32,6 +33,7 @@ def design_key(spec: Spec, fidelity: str, evaluate: Callable[..., Any]) -> str:
         "evaluate": _name(evaluate),
         "materials": _materials(spec),
         "program": program(),
+        **({"gradient": list(gradient), "given": sorted(spec.given)} if gradient else {}),
     }
     return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from fluxbore.design.errors import DesignError, MaterialError, SpecError
@@ -13,10 +13,14 @@ from fluxbore.optimize.evaluation import FAILED, INVALID, Evaluation, Fidelity, 
 
 @dataclass(frozen=True, slots=True)
 class Model:
-    """How one kind of actuator is evaluated, route by route; both may raise DesignError or MaterialError."""
+    """How one kind of actuator is evaluated, route by route; both may raise DesignError or MaterialError.
 
-    network: Callable[[Spec], Evaluation]
-    fem: Callable[[Spec], Evaluation]
+    gradients : whether evaluations by FEM can bring derivatives along, by the dotted keys that are asked for.
+    """
+
+    network: Callable[[Spec, Sequence[str]], Evaluation]
+    fem: Callable[[Spec, Sequence[str]], Evaluation]
+    gradients: bool = False
 
 
 MODELS: dict[str, Model] = {
@@ -25,8 +29,10 @@ MODELS: dict[str, Model] = {
 """The model of every kind of actuator, by the kind's name."""
 
 
-def evaluate(spec: Spec, fidelity: Fidelity = "fem") -> Evaluation:
+def evaluate(spec: Spec, fidelity: Fidelity = "fem", gradient: Sequence[str] = ()) -> Evaluation:
     """The design's figures by one route.
+
+    gradient : dotted keys by which derivatives are wanted; a model that has none leaves `Evaluation.gradient` None.
 
     A design that cannot be built, or whose field does not converge, comes back with its status and reason.
     """
@@ -35,11 +41,11 @@ def evaluate(spec: Spec, fidelity: Fidelity = "fem") -> Evaluation:
         if spec.kind.check is not None:
             spec.kind.check(spec.values)
         if fidelity == "network":
-            return model.network(spec)
+            return model.network(spec, gradient)
         from fluxbore.fem.threads import one_thread
 
         with one_thread():
-            return model.fem(spec)
+            return model.fem(spec, gradient)
     except (SpecError, DesignError, MaterialError) as error:
         return failure(fidelity, INVALID, str(error))
     except (ArithmeticError, MemoryError) as error:

@@ -45,6 +45,21 @@ class PositionResult:
 
 
 @dataclass(frozen=True, slots=True)
+class Norm:
+    """The smooth stand-in of a figure that is a maximum: (mean of x^p)^(1/p) over where the maximum is looked for.
+
+    exponent : p. value : SI, below the maximum and near it.
+    """
+
+    exponent: float
+    value: float
+
+
+Gradient = Mapping[str, Mapping[str, float]]
+"""Figure -> dotted key -> derivative (SI), the other variables and the held keys staying as they are."""
+
+
+@dataclass(frozen=True, slots=True)
 class Evaluation:
     """One design's figures by one route.
 
@@ -52,6 +67,8 @@ class Evaluation:
     positions : the window's positions, empty for the network.
     details : further figures of the route by name (SI), such as the network's reluctances or the mesh's size.
     warnings : whole sentences on what a sound design's reader must know, such as a magnet that is too hot.
+    gradient : of the figures that have one, by the keys that were asked for; None where none was asked for. Of a figure
+    with a norm it is the norm's. norms : by figure.
     """
 
     fidelity: Fidelity
@@ -61,6 +78,8 @@ class Evaluation:
     positions: tuple[PositionResult, ...] = ()
     details: Mapping[str, float] | None = None
     warnings: tuple[str, ...] = ()
+    gradient: Gradient | None = None
+    norms: Mapping[str, Norm] | None = None
 
     @property
     def ok(self) -> bool:
@@ -82,6 +101,10 @@ def to_plain(evaluation: Evaluation) -> dict[str, Any]:
         "performance": {name: _finite(value) for name, value in to_mapping(evaluation.performance).items()},
         "positions": [asdict(position) for position in evaluation.positions],
         "details": {name: _finite(value) for name, value in (evaluation.details or {}).items()},
+        "gradient": None
+        if evaluation.gradient is None
+        else {name: dict(slopes) for name, slopes in evaluation.gradient.items()},
+        "norms": None if evaluation.norms is None else {name: asdict(norm) for name, norm in evaluation.norms.items()},
     }
 
 
@@ -105,6 +128,8 @@ def from_plain(plain: Mapping[str, Any]) -> Evaluation:
         positions,
         plain["details"],
         tuple(plain["warnings"]),
+        plain["gradient"],
+        None if plain["norms"] is None else {name: Norm(**norm) for name, norm in plain["norms"].items()},
     )
 
 

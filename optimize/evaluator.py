@@ -24,7 +24,7 @@ from fluxbore.optimize.journal import Journal, settled
 class Evaluate(Protocol):
     """A model: the figures of one design by one route. A worker finds it by its name, so it stands in a module."""
 
-    def __call__(self, spec: Spec, fidelity: Fidelity = "fem") -> Evaluation: ...
+    def __call__(self, spec: Spec, fidelity: Fidelity = "fem", gradient: Sequence[str] = ()) -> Evaluation: ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,6 +42,7 @@ class Evaluator:
 
     base : the start design; designs differ from it by a few values.
     kind : what asks, for the journal's reader: "sweep" or "search".
+    gradient : dotted keys by which every evaluation brings its derivatives.
     """
 
     base: Spec
@@ -50,6 +51,7 @@ class Evaluator:
     fidelity: Fidelity
     evaluate: Evaluate
     kind: str
+    gradient: tuple[str, ...] = ()
 
     def design(self, values: Mapping[str, Value]) -> Spec:
         """The design with these values. Raises SpecError or DesignError where there is no such design."""
@@ -74,7 +76,7 @@ class Evaluator:
                 waiting.setdefault(key, []).append(index)
         keys = list(waiting)
         # The designs are built a second time, one by one as workers ask for them: a grid of a million fits in memory.
-        tasks = ((self.design(designs[waiting[key][0]]), self.fidelity, self.evaluate) for key in keys)
+        tasks = ((self.design(designs[waiting[key][0]]), self.fidelity, self.evaluate, self.gradient) for key in keys)
         for outcome in self.executor.run(_evaluate, tasks):
             indices = waiting[keys[outcome.index]]
             evaluation = outcome.value or failure(self.fidelity, FAILED, outcome.failure or "The evaluation failed.")
@@ -99,16 +101,16 @@ class Evaluator:
             spec = self.design(values)
         except Exception as error:
             return None, _unbuilt(self.fidelity, error)
-        key = design_key(spec, self.fidelity, self.evaluate)
+        key = design_key(spec, self.fidelity, self.evaluate, self.gradient)
         return key, self.journal.get(key) if self.journal is not None else None
 
 
-def _evaluate(task: tuple[Spec, Fidelity, Any]) -> Evaluation:
+def _evaluate(task: tuple[Spec, Fidelity, Any, tuple[str, ...]]) -> Evaluation:
     """Runs in the worker."""
-    spec, fidelity, evaluate = task
+    spec, fidelity, evaluate, gradient = task
     model: Callable[..., Evaluation] = evaluate
     try:
-        return model(spec, fidelity)
+        return model(spec, fidelity, gradient) if gradient else model(spec, fidelity)
     except FluxboreError as error:
         return failure(fidelity, INVALID, str(error))
 

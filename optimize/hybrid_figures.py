@@ -6,56 +6,30 @@ computed once, by the same functions, for both.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from fluxbore.design import magnetic_network, pneumatics, winding
+from fluxbore.design import magnetic_network, winding
 from fluxbore.design.hybrid import HybridActuator
-from fluxbore.design.materials import Conductor, PermanentMagnet, lookup
+from fluxbore.design.hybrid_values import positions as window
+from fluxbore.design.materials import PermanentMagnet, lookup
 from fluxbore.design.performance import Performance
 from fluxbore.design.spec import Spec
-from fluxbore.design.units import format_quantity
-from fluxbore.geometry.hybrid_parts import assembly
-from fluxbore.geometry.mass import envelope, part_masses, total
 from fluxbore.optimize.evaluation import NOT_CONVERGED, OK, Evaluation, PositionResult, failure
+from fluxbore.optimize.hybrid_common import common_figures, warnings
 
 if TYPE_CHECKING:
     from fluxbore.fem.tubular import TubularSolution
-
-NOTABLE_FRACTION = 0.01
-"""Of the magnets' volume; the field at their sharp edges against the rings always takes a little less than that."""
 
 STRAY_OVERHANG = 0.02
 """m before and beyond the yoke over which the stray field is read."""
 
 
-def _common(spec: Spec, actuator: HybridActuator) -> Performance:
-    """The figures that need no field."""
-    conductor = lookup(actuator.winding.material, "actuator.winding.material", spec.materials, Conductor)
-    resistance = winding.resistance(actuator, conductor, spec.number("operating_point.winding_temperature"))
-    pressure = spec.number("operating_point.pressure")
-    current = spec.number("operating_point.current")
-    parts = assembly(actuator, actuator.mid_stroke)
-    masses = part_masses(parts, spec.materials)
-    outer_diameter, length = envelope(parts)
-    return Performance(
-        winding_resistance=resistance,
-        turns=actuator.winding.turns,
-        pneumatic_force_advance=pneumatics.advance_force(actuator, pressure),
-        pneumatic_force_retract=pneumatics.retract_force(actuator, pressure),
-        moving_mass=total(masses, "mover"),
-        total_mass=total(masses),
-        electric_loading=winding.electric_loading(actuator, current),
-        copper_loss=winding.copper_loss(resistance, current),
-        outer_diameter=outer_diameter,
-        length=length,
-    )
-
-
-def by_network(spec: Spec) -> Evaluation:
+def by_network(spec: Spec, gradient: Sequence[str] = ()) -> Evaluation:
     """The figures by the magnetic network, which stands for mid-stroke. Raises DesignError or MaterialError."""
-    actuator = spec.actuator
-    common = _common(spec, actuator)
+    actuator: HybridActuator = spec.actuator
+    common = common_figures(spec, actuator)
     solved = magnetic_network.network(actuator, spec.materials, spec.number("operating_point.magnet_temperature"))
     assert common.winding_resistance is not None
     performance = replace(
@@ -73,7 +47,7 @@ def by_network(spec: Spec) -> Evaluation:
         "leakage_reluctance": solved.leakage_reluctance,
         "effective_gap": solved.effective_gap,
     }
-    return Evaluation("network", OK, (), performance, details=details, warnings=_warnings(spec, performance))
+    return Evaluation("network", OK, (), performance, details=details, warnings=warnings(spec, performance))
 
 
 def solve_window(spec: Spec, positions: tuple[float, ...] | None = None) -> list[TubularSolution]:
@@ -82,7 +56,7 @@ def solve_window(spec: Spec, positions: tuple[float, ...] | None = None) -> list
     from fluxbore.fem.tubular import solve_positions
     from fluxbore.geometry.hybrid import cross_section
 
-    actuator = spec.actuator
+    actuator: HybridActuator = spec.actuator
     temperature = spec.number("operating_point.magnet_temperature")
     settings = Settings(
         spec.number("solver.tolerance"),
@@ -91,16 +65,16 @@ def solve_window(spec: Spec, positions: tuple[float, ...] | None = None) -> list
     )
     return solve_positions(
         lambda position: cross_section(actuator, position, spec.materials, temperature),
-        spec.positions if positions is None else positions,
+        window(spec.values) if positions is None else positions,
         settings,
         int(spec.number("solver.mesh_refinement")),
     )
 
 
-def by_fem(spec: Spec) -> Evaluation:
+def by_fem(spec: Spec, gradient: Sequence[str] = ()) -> Evaluation:
     """The figures by finite elements over the window of positions. Raises DesignError or MaterialError."""
-    actuator = spec.actuator
-    common = _common(spec, actuator)
+    actuator: HybridActuator = spec.actuator
+    common = common_figures(spec, actuator)
     solved = solve_window(spec)
     last = solved[-1]
     if not last.convergence.converged:
@@ -123,27 +97,7 @@ def by_fem(spec: Spec) -> Evaluation:
         "newton_iterations": float(sum(item.iterations for item in positions)),
         "largest_residual": max(item.residual for item in positions),
     }
-    return Evaluation("fem", OK, (), performance, positions, details, _warnings(spec, performance))
-
-
-def _warnings(spec: Spec, performance: Performance) -> tuple[str, ...]:
-    """What a sound field does not say by itself: magnets beyond their temperature or their coercivity."""
-    grade = lookup(spec.actuator.mover.magnet, "actuator.mover.magnet", spec.materials, PermanentMagnet)
-    temperature = spec.number("operating_point.magnet_temperature")
-    found = []
-    if grade.working_temperature is not None and temperature > grade.working_temperature:
-        found.append(
-            f"operating_point.magnet_temperature should not exceed the working temperature of {grade.name}, "
-            f"{format_quantity(grade.working_temperature, 'temperature', 4)}; it is "
-            f"{format_quantity(temperature, 'temperature', 4)}."
-        )
-    fraction = performance.demagnetised_fraction
-    if fraction is not None and fraction > NOTABLE_FRACTION:
-        found.append(
-            f"At this temperature {fraction:.1%} of the magnets' volume is beyond its intrinsic coercivity at no "
-            "current; the figures take it as still magnetised."
-        )
-    return tuple(found)
+    return Evaluation("fem", OK, (), performance, positions, details, warnings(spec, performance))
 
 
 def _position(solved: TubularSolution, pole_pitch: float) -> PositionResult:

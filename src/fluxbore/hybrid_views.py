@@ -5,6 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fluxbore.design.errors import MaterialError
+from fluxbore.design.hybrid import HybridActuator
+from fluxbore.design.hybrid_values import positions
 from fluxbore.design.magnetic_network import Slots, cylinder_insertion
 from fluxbore.design.spec import Spec
 from fluxbore.geometry import hybrid_parts
@@ -17,7 +19,7 @@ if TYPE_CHECKING:
 
 def assembly(spec: Spec) -> Assembly:
     """The parts where they stand in the middle of the stroke. Raises DesignError where they do not fit."""
-    actuator = spec.actuator
+    actuator: HybridActuator = spec.actuator
     return hybrid_parts.assembly(actuator, actuator.mid_stroke)
 
 
@@ -31,7 +33,8 @@ def flux_map(spec: Spec) -> FluxMap | None:
     from fluxbore.optimize.hybrid_figures import solve_window
     from fluxbore.reports.content import FluxMap
 
-    position = spec.positions[len(spec.positions) // 2]
+    window = positions(spec.values)
+    position = window[len(window) // 2]
     with one_thread():
         solved = solve_window(spec, (position,))[0]
     if not solved.convergence.converged:
@@ -48,7 +51,7 @@ def femm_model(spec: Spec) -> FemmModel:
     from fluxbore.fem import femm_export
     from fluxbore.geometry.hybrid import cross_section
 
-    actuator = spec.actuator
+    actuator: HybridActuator = spec.actuator
     temperature = spec.number("operating_point.magnet_temperature")
     section = cross_section(actuator, actuator.mid_stroke, spec.materials, temperature)
     return femm_export.femm_model(section, comment=f"{spec.word('actuator.name')}, mover in the middle of its stroke")

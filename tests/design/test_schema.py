@@ -127,7 +127,7 @@ def test_what_a_person_gets_wrong_most_is_refused():
         "operating_point.pressure": "0.6 MPa",
         "solver.factorisation": "magic",
         "study.objective": "maximise thrust",
-        "study.search": {"algorithm": "SLSQP"},
+        "study.search": {"algorithm": "SIMPLEX"},
         "study.goal": 1,
         "study.variables": [{"key": "actuator.mover.ring_width", "lower": "1 mm"}],
         "study.constraints": [{"key": "actuator.mover.ring_width", "upper": "1 T"}],
