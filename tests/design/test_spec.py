@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from fluxbore.design.errors import DesignError, MaterialError, SpecError
+from fluxbore.design.hybrid_values import positions
 from fluxbore.design.spec import DEEPEST, LARGEST_FILE, Spec, load, loads
 from fluxbore.design.spec_file import template
 
@@ -44,9 +45,9 @@ def test_what_is_assumed_is_noted_with_its_reason(spec):
 
 
 def test_positions_of_the_window(spec):
-    assert spec.positions == pytest.approx([z * 1e-3 for z in range(24, 32)])
-    assert loads(TEXT, {"operating_point.positions": "1"}).positions == pytest.approx((0.0275,))
-    assert loads(TEXT, {"operating_point.positions": "2"}).positions == pytest.approx((0.024, 0.031))
+    assert positions(spec.values) == pytest.approx([z * 1e-3 for z in range(24, 32)])
+    assert positions(loads(TEXT, {"operating_point.positions": "1"}).values) == pytest.approx((0.0275,))
+    assert positions(loads(TEXT, {"operating_point.positions": "2"}).values) == pytest.approx((0.024, 0.031))
 
 
 @pytest.mark.parametrize("content", [TEXT, "\ufeff" + TEXT, TEXT.replace("\n", "\r\n")], ids=["plain", "BOM", "CRLF"])
@@ -139,7 +140,7 @@ def test_required_keys_are_asked_for_with_their_meaning():
 def test_the_window_lies_within_the_stroke():
     """The stroke's ends are z = 0 and z = 88 mm: mid-stroke 44 mm, half of 88 mm to each side."""
     ends = {"operating_point.first_position": "0 mm", "operating_point.last_position": "88 mm"}
-    assert loads(TEXT, ends).positions[-1] == 0.088
+    assert positions(loads(TEXT, ends).values)[-1] == 0.088
     assert "must lie within the stroke, 0 mm to 88 mm; got 88.1 mm." in refused(
         TEXT, ends | {"operating_point.last_position": "88.1 mm"}
     )
