@@ -9,7 +9,10 @@ from fluxbore.design.keys import LONGEST_WORD, Key
 from fluxbore.design.material_table import schema as material_schema
 from fluxbore.design.performance import FIGURES
 from fluxbore.design.spec import KINDS
-from fluxbore.design.study import ALGORITHMS
+from fluxbore.design.study import DISTRIBUTIONS
+from fluxbore.design.study_production_reader import PRODUCTION_KEYS
+from fluxbore.design.study_search_reader import PARETO_KEYS, SEARCH_KEYS
+from fluxbore.design.study_variable_reader import movable
 from fluxbore.design.units import DIMENSIONS, example, quantity_pattern
 
 
@@ -81,15 +84,26 @@ def _quantity(dimension: str) -> dict[str, Any]:
     }
 
 
-def _bounds(keys: Iterable[Key], values: Iterable[str], steps: Iterable[str] = (), *, relative: bool = False) -> Any:
-    """Conditions: where ``key`` names a length, ``values`` and ``steps`` are lengths, and so on."""
+def _bounds(
+    keys: Iterable[Key],
+    values: Iterable[str],
+    steps: Iterable[str] = (),
+    *,
+    relative: bool = False,
+    stepped: bool = True,
+) -> Any:
+    """Conditions: where ``key`` names a length, ``values`` and ``steps`` are lengths, and so on.
+
+    stepped : whether counts have ``steps`` too.
+    """
     kinds: dict[tuple[str, str], list[Key]] = {}
     for key in keys:
         kinds.setdefault((key.kind, key.dimension if key.kind == "quantity" else ""), []).append(key)
     conditions = []
     for alike in kinds.values():
         value, step = (_measure(key, relative=relative) for key in (alike[0], alike[0].difference))
-        then = dict.fromkeys(values, value) | dict.fromkeys(steps, step)
+        counted = alike[0].kind == "integer" and not stepped
+        then: dict[str, Any] = dict.fromkeys(values, value) | dict.fromkeys(steps, False if counted else step)
         if "values" in then:
             then["values"] = {"type": "array", "items": value, "minItems": 1}
         named = {"properties": {"key": {"enum": [key.name for key in alike]}}, "required": ["key"]}
@@ -114,19 +128,21 @@ def _study(numeric: Sequence[Key]) -> dict[str, Any]:
         {"key": key, "from": bound, "to": bound, "step": bound, "values": {"type": "array", "items": bound}}, ("key",)
     ) | _bounds(numeric, ("from", "to", "values"), ("step",))
     figure = {"enum": list(FIGURES)}
+    goal = {"enum": [f"{verb} {name}" for verb in ("maximise", "minimise") for name in FIGURES]}
+    moved = [item for item in numeric if movable(item)]
     return _table(
         {
-            "objective": {"enum": [f"{verb} {name}" for verb in ("maximise", "minimise") for name in FIGURES]},
+            "objective": goal,
             "hold": {"type": "array", "items": {"type": "string"}},
             "variables": _tables(
                 {
-                    "key": {"enum": [item.name for item in continuous]},
+                    "key": {"enum": [item.name for item in moved]},
                     "lower": bound,
                     "upper": bound,
                     "resolution": bound,
                 },
                 ("key", "lower", "upper"),
-                _bounds(continuous, ("lower", "upper"), ("resolution",)),
+                _bounds(moved, ("lower", "upper"), ("resolution",), stepped=False),
             ),
             "constraints": _tables(
                 {"figure": figure, "key": key, "upper": bound, "lower": bound},
@@ -142,16 +158,38 @@ def _study(numeric: Sequence[Key]) -> dict[str, Any]:
                 },
                 ("axes",),
             ),
-            "search": _table(
-                {
-                    "algorithm": {"enum": list(ALGORITHMS)},
-                    "max_evaluations": {"type": "integer", "minimum": 1},
-                    "relative_tolerance": {"type": "number", "exclusiveMinimum": 0, "maximum": 0.5},
-                    "seed": {"type": "integer", "minimum": 0},
-                }
-            ),
+            "search": _table(_settings(SEARCH_KEYS)),
+            "pareto": _table({"against": goal, **_settings(PARETO_KEYS)}, ("against",)),
+            "production": _production(continuous),
         }
     )
+
+
+def _settings(keys: Iterable[Key]) -> dict[str, Any]:
+    """The properties of a table that is read by these keys."""
+    return {key.leaf: _value(key) | {"description": key.doc} for key in keys}
+
+
+def _production(continuous: Sequence[Key]) -> dict[str, Any]:
+    size = {"type": ["string", "number"]}
+    tolerances = _tables(
+        {
+            "key": {"enum": [item.name for item in continuous]},
+            "tolerance": size,
+            "plus": size,
+            "minus": size,
+            "distribution": {"enum": list(DISTRIBUTIONS)},
+        },
+        ("key",),
+        _bounds(continuous, (), ("tolerance", "plus", "minus"))
+        | {
+            "oneOf": [
+                {"required": ["tolerance"], "properties": {"plus": False, "minus": False}},
+                {"required": ["plus", "minus"], "properties": {"tolerance": False}},
+            ]
+        },
+    )
+    return _table({**_settings(PRODUCTION_KEYS), "tolerances": tolerances | {"minItems": 1}}, ("tolerances",))
 
 
 def _table(properties: dict[str, Any], required: tuple[str, ...] = ()) -> dict[str, Any]:

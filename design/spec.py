@@ -152,6 +152,8 @@ def _check_study(spec: Spec) -> None:
     base = spec.for_study()
     for sweep in spec.study.sweeps:
         base.pinned(axis.key for axis in sweep.axes)
+    if spec.study.production is not None:
+        base.pinned(tolerance.key for tolerance in spec.study.production.tolerances)
     moving = {variable.key for variable in spec.study.variables}
     for i, constraint in enumerate(spec.study.constraints if moving else ()):
         name = constraint.subject

@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from fluxbore.design.errors import SpecError, shown
-from fluxbore.design.keys import Key, toml_string
+from fluxbore.design.keys import Key, Value, toml_string
 from fluxbore.design.performance import FIGURES
 from fluxbore.design.spec import Spec
-from fluxbore.design.study import Axis, Constraint, Study
+from fluxbore.design.study import Axis, Constraint, Objective, Production, Study
+from fluxbore.design.study_production_reader import PRODUCTION_KEYS
+from fluxbore.design.study_search_reader import PARETO_KEYS, SEARCH_KEYS
 from fluxbore.design.units import DIMENSIONS
+
+_ATTRIBUTES = {"yield": "target_yield"}
+"""Where a key's name is no name of Python's."""
 
 _TEMPLATES = Path(__file__).parent / "data" / "templates"
 
@@ -39,7 +44,7 @@ def to_toml(spec: Spec, comment: str = "") -> str:
     for key in spec.kind.keys:
         if key.name not in spec.given:
             continue
-        text = key.write(spec.given[key.name])
+        text = _write(key, spec.given[key.name])
         note = notes.get(key.name)
         if note is not None:
             text = f"{{ value = {text}, {note.status} = {toml_string(note.reason)} }}"
@@ -81,14 +86,13 @@ def _plain(value: Any) -> str:
 def _study_lines(study: Study, keys: Mapping[str, Key]) -> list[str]:
     lines = ["", "[study]"]
     if study.objective is not None:
-        verb = "maximise" if study.objective.maximise else "minimise"
-        lines.append(f'objective = "{verb} {study.objective.figure}"')
+        lines.append(f"objective = {_objective(study.objective)}")
     if study.hold:
         lines.append(f"hold = {_plain(study.hold)}")
     for variable in study.variables:
         key = keys[variable.key]
         lines += ["", "[[study.variables]]", f'key = "{key.name}"']
-        lines += [f"lower = {key.write(variable.lower)}", f"upper = {key.write(variable.upper)}"]
+        lines += [f"lower = {_write(key, variable.lower)}", f"upper = {_write(key, variable.upper)}"]
         if variable.resolution is not None:
             lines.append(f"resolution = {key.difference.write(variable.resolution)}")
     for constraint in study.constraints:
@@ -100,10 +104,36 @@ def _study_lines(study: Study, keys: Mapping[str, Key]) -> list[str]:
         if sweep.reference_source:
             lines.append(f"source = {toml_string(sweep.reference_source)}")
         lines.append("axes = [" + ", ".join(_axis(axis, keys[axis.key]) for axis in sweep.axes) + "]")
-    search = study.search
-    lines += ["", "[study.search]", f'algorithm = "{search.algorithm}"']
-    lines += [f"max_evaluations = {search.max_evaluations}", f"relative_tolerance = {search.relative_tolerance!r}"]
-    return [*lines, f"seed = {search.seed}"]
+    lines += ["", "[study.search]", *_settings(study.search, SEARCH_KEYS)]
+    if study.pareto is not None:
+        against = _objective(study.pareto.against)
+        lines += ["", "[study.pareto]", f"against = {against}", *_settings(study.pareto, PARETO_KEYS)]
+    if study.production is not None:
+        lines += _production_lines(study.production, keys)
+    return lines
+
+
+def _objective(objective: Objective) -> str:
+    return f'"{"maximise" if objective.maximise else "minimise"} {objective.figure}"'
+
+
+def _settings(settings: object, keys: Sequence[Key]) -> list[str]:
+    """The lines of a table that is read by these keys; what is None is left out."""
+    values = ((key, getattr(settings, _ATTRIBUTES.get(key.leaf, key.leaf))) for key in keys)
+    return [f"{key.leaf} = {key.write(value)}" for key, value in values if value is not None]
+
+
+def _production_lines(production: Production, keys: Mapping[str, Key]) -> list[str]:
+    lines = ["", "[study.production]", *_settings(production, PRODUCTION_KEYS)]
+    for tolerance in production.tolerances:
+        step = keys[tolerance.key].difference
+        lines += ["", "[[study.production.tolerances]]", f'key = "{tolerance.key}"']
+        if tolerance.plus == -tolerance.minus:
+            lines.append(f"tolerance = {step.write(tolerance.plus)}")
+        else:
+            lines += [f"plus = {step.write(tolerance.plus)}", f"minus = {step.write(abs(tolerance.minus))}"]
+        lines.append(f'distribution = "{tolerance.distribution}"')
+    return lines
 
 
 def _constraint_lines(constraint: Constraint, keys: Mapping[str, Key]) -> list[str]:
@@ -123,11 +153,15 @@ def _constraint_lines(constraint: Constraint, keys: Mapping[str, Key]) -> list[s
     return lines
 
 
+def _write(key: Key, value: Value) -> str:
+    """A value that the reader takes; the count that a search or a grid keeps as a float is a whole number again."""
+    return key.write(int(value) if key.kind == "integer" else value)
+
+
 def _limit(key: Key, value: float) -> str:
     """A limit of a count is a plain number, which may be a fraction."""
     return repr(value) if key.kind == "integer" else key.write(value)
 
 
 def _axis(axis: Axis, key: Key) -> str:
-    values = (int(value) if key.kind == "integer" else value for value in axis.values)
-    return f'{{ key = "{axis.key}", values = [{", ".join(key.write(value) for value in values)}] }}'
+    return f'{{ key = "{axis.key}", values = [{", ".join(_write(key, value) for value in axis.values)}] }}'

@@ -128,7 +128,14 @@ def test_what_a_person_gets_wrong_most_is_refused():
         "solver.factorisation": "magic",
         "study.objective": "maximise thrust",
         "study.search": {"algorithm": "SIMPLEX"},
+        "study.search.time_limit": 600,
+        "study.search.max_evaluations": 10_000_000,
+        "study.search.seed": 2**31,
         "study.goal": 1,
+        "study.pareto": {"points": 5},
+        "study.pareto.against": "minimise weight",
+        "study.production": {"samples": 1000},
+        "study.production.tolerances": [],
         "study.variables": [{"key": "actuator.mover.ring_width", "lower": "1 mm"}],
         "study.constraints": [{"key": "actuator.mover.ring_width", "upper": "1 T"}],
         "study.sweeps": [{"axes": [{"key": "actuator.mover.ring_width", "values": [1]}]}],
@@ -141,11 +148,57 @@ def test_what_a_person_gets_wrong_most_is_refused():
         assert not reads(changed(name, value)), name
 
 
+YOKE, HEAT, SETS = (
+    "actuator.back_yoke.thickness",
+    "operating_point.magnet_temperature",
+    "actuator.winding.sets_per_phase",
+)
+
+
+@pytest.mark.parametrize(
+    "name, items",
+    [
+        ("variables", [{"key": SETS, "lower": 6, "upper": 9, "resolution": 1}]),
+        ("variables", [{"key": SETS, "lower": 6.5, "upper": 9}]),
+        ("variables", [{"key": "operating_point.positions", "lower": 6, "upper": 9}]),
+        ("variables", [{"key": "actuator.name", "lower": 6, "upper": 9}]),
+        ("production", {"tolerances": [{"key": YOKE}]}),
+        ("production", {"tolerances": [{"key": YOKE, "tolerance": 0.01}]}),
+        ("production", {"tolerances": [{"key": YOKE, "tolerance": "1 K"}]}),
+        ("production", {"tolerances": [{"key": YOKE, "plus": "1 um"}]}),
+        ("production", {"tolerances": [{"key": YOKE, "tolerance": "1 um", "plus": "1 um", "minus": "1 um"}]}),
+        ("production", {"tolerances": [{"key": YOKE, "tolerance": "1 um", "distribution": "gauss"}]}),
+        ("production", {"tolerances": [{"key": SETS, "tolerance": 1}]}),
+        ("production", {"tolerances": [{"key": YOKE, "tolerance": "1 um"}], "yield": 1}),
+        ("production", {"tolerances": [{"key": YOKE, "tolerance": "1 um"}], "samples": 1}),
+        ("pareto", {"against": "minimise total_mass", "points": 2}),
+        ("pareto", {"against": "minimise total_mass", "method": "weights"}),
+        ("search", {"network": "on"}),
+        ("search", {"time_limit": "600"}),
+    ],
+)
+def test_what_is_wrong_in_a_study_is_wrong_to_both(name, items):
+    assert not fits(SCHEMA, changed(f"study.{name}", items))
+    assert not reads(changed(f"study.{name}", items))
+
+
 STUDIES = {
     "study.variables": [
         {"key": "operating_point.magnet_temperature", "lower": "20 degC", "upper": "80 degC", "resolution": "5 K"},
         {"key": "actuator.winding.turns_density", "lower": "1 1/mm^2", "upper": "5 1/mm^2"},
+        {"key": SETS, "lower": 6, "upper": 9},
     ],
+    "study.pareto": {"against": "minimise total_mass", "points": 3, "method": "normal boundary intersection"},
+    "study.search": {"algorithm": "auto", "time_limit": "10 min", "network": "off"},
+    "study.production": {
+        "yield": 0.9,
+        "samples": 100,
+        "tolerances": [
+            {"key": YOKE, "tolerance": "0.05 mm"},
+            {"key": HEAT, "plus": "5 K", "minus": "9 degF", "distribution": "uniform"},
+            {"key": "actuator.mover.magnet_permeability", "tolerance": 0.01},
+        ],
+    },
     "study.constraints": [
         {"key": "actuator.mover.ring_width", "upper": "1.1 x start", "lower": "start"},
         {"key": "actuator.winding.sets_per_phase", "upper": 8.5},

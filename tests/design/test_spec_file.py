@@ -10,7 +10,18 @@ from hypothesis import strategies as st
 from fluxbore.design.errors import DesignError, SpecError
 from fluxbore.design.spec import Spec, load, loads
 from fluxbore.design.spec_file import template, template_names, to_toml
-from fluxbore.design.study import Axis, Constraint, Objective, Search, Study, Sweep, Variable
+from fluxbore.design.study import (
+    Axis,
+    Constraint,
+    Objective,
+    Pareto,
+    Production,
+    Search,
+    Study,
+    Sweep,
+    Tolerance,
+    Variable,
+)
 from fluxbore.design.units import DIMENSIONS
 from fluxbore.optimize.evaluate import evaluate
 
@@ -91,7 +102,8 @@ def test_every_unit_of_every_key_survives(key, data):
 def test_a_study_with_everything_survives():
     study = Study(
         objective=Objective("total_mass", False),
-        variables=(Variable(RING, 1e-3, 2.1e-3), Variable("operating_point.magnet_temperature", 293.15, 353.15, 5.0)),
+        variables=(Variable(RING, 1e-3, 2.1e-3), Variable("operating_point.magnet_temperature", 293.15, 353.15, 5.0),
+                   Variable(SETS, 6.0, 9.0, None, True)),
         constraints=(
             Constraint("stray_field", 1.1, None, True),
             Constraint("force_constant", None, 8.1),
@@ -104,10 +116,26 @@ def test_a_study_with_everything_survives():
             Sweep("one", (Axis(RING, (0.0, 0.1 + 0.2e-3)),), 1.5e-3, "somebody, 2023"),
         ),
         hold=("actuator.winding.turns_density",),
-        search=Search("CRS2", 7, 1.0 / 3, 5),
+        search=Search("CRS2", 7, 1.0 / 3, 5, 600.0 / 7, "manifold"),
+        pareto=Pareto(Objective("stray_field", False), 5, "normal boundary intersection"),
+        production=Production(
+            (
+                Tolerance(YOKE, -1e-5, 1e-5),
+                Tolerance(RING, 0.0, 1e-4 / 3, "uniform"),
+                Tolerance("operating_point.magnet_temperature", -1.0, 2.5, "triangular"),
+            ),
+            500, 3, 9, 2.0 / 3,
+        ),
     )  # fmt: skip
     found = again(replace(IPEHLA, study=study)).study
     assert found == study
+    assert repr(found) == repr(study)  # what the fingerprint is made of
+
+
+def test_a_count_that_a_search_chose_is_written_as_one():
+    """Catches a design.toml with "pole_pairs = 5.0", which no longer reads."""
+    design = IPEHLA.with_values({SETS: 7.0})
+    assert again(design).given[SETS] == 7
 
 
 def test_own_materials_and_odd_names_survive():

@@ -9,7 +9,17 @@ import pytest
 from fluxbore.design.errors import SpecError
 from fluxbore.design.spec import loads
 from fluxbore.design.spec_file import template
-from fluxbore.design.study import ALGORITHMS, Axis, Constraint, Objective, Search
+from fluxbore.design.study import (
+    ALGORITHMS,
+    Axis,
+    Constraint,
+    Objective,
+    Pareto,
+    Production,
+    Search,
+    Tolerance,
+    Variable,
+)
 
 TEXT = template("ipehla")
 BARE = TEXT[: TEXT.index("[study]")]
@@ -93,10 +103,52 @@ def test_limits_relative_to_the_start():
     assert study(limit.format("0.4 mT")).constraints == (Constraint("stray_field", 4e-4, None, False),)
 
 
+def test_a_count_is_a_variable_in_whole_numbers():
+    found = study(f'[[study.variables]]\nkey = "{SETS}"\nlower = 6\nupper = 9').variables
+    assert found == (Variable(SETS, 6.0, 9.0, None, True),)
+
+
+def test_a_front():
+    found = study(GOAL + FRONT + 'points = 5\nmethod = "normal boundary intersection"').pareto
+    assert found == Pareto(Objective("total_mass", False), 5, "normal boundary intersection")
+    assert study(GOAL + FRONT).pareto == Pareto(Objective("total_mass", False), 9, "epsilon constraint")
+    assert study(GOAL).pareto is None
+
+
+def test_production():
+    """One tolerance to both sides, one unlike, and one of a temperature, whose step has no offset."""
+    found = study(
+        GOAL
+        + STRAY
+        + 'upper = "start"\n'
+        + "[study.production]\nsamples = 2000\nchecks = 20\nseed = 7\nyield = 0.99\n"
+        + SLIP
+        + f'{TOLERANCE}key = "{RING}"\nplus = "0.05 mm"\nminus = "0 mm"\ndistribution = "uniform"\n'
+        + f'{TOLERANCE}key = "operating_point.magnet_temperature"\ntolerance = "18 degF"\n'
+    ).production
+    assert found is not None
+    yoke, ring, heat = found.tolerances
+    assert yoke == Tolerance(YOKE, -1e-5, 1e-5, "normal")
+    assert ring == Tolerance(RING, 0.0, 5e-5, "uniform")
+    assert repr(ring.minus) == "0.0"  # the fingerprint is made of such texts
+    assert (heat.minus, heat.plus) == pytest.approx((-10.0, 10.0))
+    assert (found.samples, found.checks, found.seed, found.target_yield) == (2000, 20, 7, 0.99)
+    assert study(SLIP).production == Production((yoke,))
+
+
+def test_the_search_s_time_and_network():
+    found = study('[study.search]\nalgorithm = "auto"\ntime_limit = "10 min"\nnetwork = "manifold"').search
+    assert found == Search("auto", time_limit=600.0, network="manifold")
+
+
 VARIABLE = "[[study.variables]]\n"
 CONSTRAINT = "[[study.constraints]]\n"
 STRAY = CONSTRAINT + 'figure = "stray_field"\n'
 BOTH = f'{VARIABLE}key = "{YOKE}"\nlower = "0.3 mm"\nupper = "2.5 mm"\n'
+GOAL = f'objective = "maximise force_constant"\n{BOTH}'
+FRONT = '[study.pareto]\nagainst = "minimise total_mass"\n'
+TOLERANCE = "[[study.production.tolerances]]\n"
+SLIP = f'{TOLERANCE}key = "{YOKE}"\ntolerance = "10 um"\n'
 WRONG = {
     # Variables.
     'variables = 3': 'study.variables must be a list of tables, each headed [[study.variables]]; got 3.',
@@ -111,8 +163,13 @@ WRONG = {
     f'{VARIABLE}key = "{RING}"\nlower = "1 mm"\nupper = "2 mm"\nresolution = "5 mm"': "must be above zero and at most the range 1 mm; got 5 mm.",
     f'{VARIABLE}key = "{RING}"\nlower = "1 mm"\nupper = "2 mm"\nresolution = "0 mm"': "must be above zero and at most the range 1 mm; got 0 mm.",
     f'{VARIABLE}key = "{RING}"\nlower = "1 mm"\nupper = "2 mm"\nstep = "1 mm"': "study.variables.0.step is not a key of this specification; study.variables.0 has key, lower, upper, resolution.",
-    f'{VARIABLE}key = "actuator.name"\nlower = "1 mm"\nupper = "2 mm"': "must name a continuous quantity; got actuator.name, which is a word.",
-    f'{VARIABLE}key = "{SETS}"\nlower = 1\nupper = 2': "which is a count.",
+    f'{VARIABLE}key = "actuator.name"\nlower = "1 mm"\nupper = "2 mm"': "must name a dimension, a number or a count; got actuator.name, which is a word.",
+    f'{VARIABLE}key = "operating_point.positions"\nlower = 1\nupper = 2': "must name a quantity, a number or a count of the actuator's parts; got operating_point.positions, which is a count of the evaluation's.",
+    f'{VARIABLE}key = "{SETS}"\nlower = 1.5\nupper = 2': "study.variables.0.lower must be a whole number, such as 4; got 1.5.",
+    f'{VARIABLE}key = "{SETS}"\nlower = "1 mm"\nupper = 2': 'study.variables.0.lower must be a whole number, such as 4; got "1 mm".',
+    f'{VARIABLE}key = "{SETS}"\nlower = 0\nupper = 2': f"study.variables.0.lower: {SETS} must be at least 1; got 0.",
+    f'{VARIABLE}key = "{SETS}"\nlower = 3\nupper = 3': "study.variables.0.upper must exceed study.variables.0.lower 3; got 3.",
+    f'{VARIABLE}key = "{SETS}"\nlower = 1\nupper = 9\nresolution = 2': f"study.variables.0.resolution must be left out, for {SETS} is a count, which moves by 1; got 2.",
     f'{VARIABLE}key = "solver.tolerance"\nlower = 1e-9\nupper = 1e-8': "which is a setting of the solver.",
     BOTH + BOTH: f"study.variables must name each key once; got {YOKE} twice.",
     # Constraints.
@@ -165,12 +222,49 @@ WRONG = {
     'hold = ["actuator.shaft.length"]': "study.hold.0 must be a key that has alternatives, one of ",
     f'hold = ["{YOKE}"]\n{BOTH}': f"study.hold.0 must not be a variable of the study as well; got {YOKE}.",
     'hold = ["actuator.winding.turns", "actuator.winding.turns_density"]': "The study is over-determined: at most 1 of",
-    "goal = 1": "study.goal is not a key of this specification; study has objective, hold, variables, constraints, sweeps, search.",
+    "goal = 1": "study.goal is not a key of this specification; study has objective, hold, variables, constraints, sweeps, search, pareto, production.",
     "search = 3": "study.search must be a section of keys; got 3.",
     '[study.search]\nalgorithm = "SIMPLEX"': f'study.search.algorithm must be one of {", ".join(ALGORITHMS)}; got "SIMPLEX".',
     "[study.search]\nmax_evaluations = 0": "study.search.max_evaluations must be at least 1; got 0.",
     "[study.search]\nrelative_tolerance = 0.9": "study.search.relative_tolerance must be at most 0.5; got 0.9.",
     "[study.search]\nseed = 1.5": "study.search.seed must be a whole number, such as 4; got 1.5.",
+    "[study.search]\ntime_limit = 600": "study.search.time_limit must be a time, one number and one unit of s, ms, min, h, such as \"1 s\"; got the bare number 600.",
+    '[study.search]\ntime_limit = "0 s"': "study.search.time_limit must exceed 0 s; got 0 s.",
+    '[study.search]\nnetwork = "on"': 'study.search.network must be one of start, manifold, off; got "on".',
+    # The front.
+    f'{GOAL}[study.pareto]': "study.pareto.against is missing: a front needs a second goal, such as \"minimise total_mass\".",
+    "pareto = []": "study.pareto must be a section of keys; got [].",
+    f'{BOTH}[study.pareto]\nagainst = "minimise total_mass"': "study.objective must be given for study.pareto",
+    'objective = "maximise force_constant"\n[study.pareto]\nagainst = "minimise total_mass"': "study.variables must be given for study.pareto; got none.",
+    f'{GOAL}[study.pareto]\nagainst = "minimise force_constant"': "study.pareto.against must differ from study.objective; got force_constant for both.",
+    f'{GOAL}[study.pareto]\nagainst = "total_mass"': 'study.pareto.against must be "maximise FIGURE" or "minimise FIGURE", such as "maximise force_constant"; got "total_mass".',
+    f'{GOAL}[study.pareto]\nagainst = "minimise weight"': 'study.pareto.against must name a figure, one of force_constant, ',
+    f'{GOAL}{FRONT}points = 2': "study.pareto.points must be at least 3; got 2.",
+    f'{GOAL}{FRONT}method = "weights"': 'study.pareto.method must be one of epsilon constraint, normal boundary intersection; got "weights".',
+    f'{GOAL}{FRONT}seed = 2': "study.pareto.seed is not a key of this specification; study.pareto has against, points, method.",
+    # Production.
+    "[study.production]": "study.production.tolerances must hold at least one table, [[study.production.tolerances]]; got none.",
+    "[study.production]\ntolerances = 3": "study.production.tolerances must be a list of tables, each headed [[study.production.tolerances]]; got 3.",
+    f"[study.production]\nyield = 1\n{SLIP}": "study.production.yield must be at most 0.9999; got 1.",
+    f"[study.production]\nyield = 0\n{SLIP}": "study.production.yield must exceed 0; got 0.",
+    f"[study.production]\nyield = 0.99\n{SLIP}": "study.objective must be given for a search that reaches study.production.yield; got none.",
+    f"{GOAL}[study.production]\nyield = 0.99\n{SLIP}": "study.constraints must be given for a search that reaches study.production.yield; got none.",
+    f"[study.production]\nsamples = 10\n{SLIP}": "study.production.samples must be at least 100; got 10.",
+    f"[study.production]\nsamples = 100\nchecks = 101\n{SLIP}": "study.production.checks must be at most study.production.samples 100; got 101.",
+    f"[study.production]\nsigma = 3\n{SLIP}": "study.production.sigma is not a key of this specification; study.production has tolerances, samples, checks, seed, yield.",
+    TOLERANCE: "study.production.tolerances.0.key must be a dotted key of this specification; got none.",
+    f'{TOLERANCE}key = "{SETS}"\ntolerance = 1': f"must name a continuous quantity; got {SETS}, which is a count.",
+    f'{TOLERANCE}key = "{YOKE}"': f"study.production.tolerances.0 must hold tolerance alone, or plus and minus together, for {YOKE}; got none.",
+    f'{TOLERANCE}key = "{YOKE}"\nplus = "1 um"': "or plus and minus together",
+    f'{SLIP}plus = "1 um"\nminus = "1 um"': "got tolerance and plus and minus.",
+    f'{TOLERANCE}key = "{YOKE}"\nplus = "1 um"\nminus = "-2 um"': "study.production.tolerances.0.minus must be at least 0 mm, for it is the distance from the nominal value; got -0.002 mm.",
+    f'{TOLERANCE}key = "{YOKE}"\ntolerance = "0 mm"': f"study.production.tolerances.0 must let {YOKE} scatter; got 0 mm to both sides.",
+    f'{TOLERANCE}key = "{YOKE}"\ntolerance = 0.05': "study.production.tolerances.0.tolerance must be a length",
+    f'{TOLERANCE}key = "{YOKE}"\ntolerance = "2 mm"': f"study.production.tolerances.0.tolerance: {YOKE} must exceed 0 mm; got -1 mm.",
+    f'{BOTH}{TOLERANCE}key = "{YOKE}"\nplus = "0.1 mm"\nminus = "0.4 mm"': f"study.production.tolerances.0.minus: {YOKE} must exceed 0 mm; got -0.1 mm.",
+    f'{SLIP}distribution = "gauss"': 'study.production.tolerances.0.distribution must be one of normal, uniform, triangular; got "gauss".',
+    SLIP + SLIP: f"study.production.tolerances must name each key once; got {YOKE} twice.",
+    f'{SLIP}{TOLERANCE}key = "actuator.back_yoke.outer_diameter"\ntolerance = "1 um"\n{TOLERANCE}key = "actuator.back_yoke.inner_diameter"\ntolerance = "1 um"': "The study is over-determined: at most 2 of",
 }  # fmt: skip
 
 
