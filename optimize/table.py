@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from fluxbore.design.errors import FluxboreError
 from fluxbore.design.keys import Value
@@ -15,24 +15,43 @@ from fluxbore.optimize.outcome import Candidate, SweepResult
 
 FILE_NAME = "results.csv"
 
+Cell = Value | None
+"""A number, a word, or nothing where a figure is not known."""
+
 
 def results_table(spec: Spec, sweeps: Sequence[SweepResult], candidates: Sequence[Candidate] = ()) -> str:
-    """The text of results.csv: the sweeps' rows in grid order, then a search's designs in the order of its asking.
-
-    Header: the dotted keys that anything moves, the figures' names, ``status``, ``reason``. A key that a row's own
-    sweep does not move has the value that follows for that row's design; where there is no such design, the start's.
-    """
-    axes = (axis.key for result in sweeps for axis in result.sweep.axes)
-    keys = list(dict.fromkeys([*axes, *(key for candidate in candidates for key in candidate.values)]))
+    """The text of results.csv: the `columns` as header, then the `cells` of each design."""
+    keys = moved_keys(sweeps, candidates)
     buffer = io.StringIO()
     writer = csv.writer(buffer, lineterminator="\n")
-    writer.writerow([*keys, *FIGURES, "status", "reason"])
+    writer.writerow(columns(keys))
+    writer.writerows(_shown(row) for row in cells(spec, keys, sweeps, candidates))
+    return buffer.getvalue()
+
+
+def moved_keys(sweeps: Sequence[SweepResult], candidates: Sequence[Candidate]) -> tuple[str, ...]:
+    """The dotted keys that anything moves, the sweeps' axes first, each once."""
+    axes = (axis.key for result in sweeps for axis in result.sweep.axes)
+    return tuple(dict.fromkeys([*axes, *(key for candidate in candidates for key in candidate.values)]))
+
+
+def columns(keys: Sequence[str]) -> list[str]:
+    """The moved keys, the figures' names, ``status``, ``reason``."""
+    return [*keys, *FIGURES, "status", "reason"]
+
+
+def cells(
+    spec: Spec, keys: Sequence[str], sweeps: Sequence[SweepResult], candidates: Sequence[Candidate]
+) -> Iterator[list[Cell]]:
+    """The designs' rows (SI): the sweeps' in grid order, then a search's designs in the order of its asking.
+
+    A key that a row's own sweep does not move has the value that follows for that row's design; where there is no such
+    design, the start's.
+    """
     base = spec.for_study()
     for values, evaluation in _rows(sweeps, candidates):
-        writer.writerow(
-            [*_shown(_moved(base, keys, values)), *_figures(evaluation), evaluation.status, _reason(evaluation)]
-        )
-    return buffer.getvalue()
+        figures: list[Cell] = [getattr(evaluation.performance, name) for name in FIGURES]
+        yield [*_moved(base, keys, values), *figures, evaluation.status, _reason(evaluation)]
 
 
 def _rows(
@@ -45,7 +64,7 @@ def _rows(
         yield candidate.values, candidate.evaluation
 
 
-def _moved(base: Spec, keys: Sequence[str], values: Mapping[str, float]) -> list[Value | None]:
+def _moved(base: Spec, keys: Sequence[str], values: Mapping[str, float]) -> list[Cell]:
     try:
         resolved = base.with_values(values).values
     except (FluxboreError, ArithmeticError, KeyError):
@@ -53,11 +72,7 @@ def _moved(base: Spec, keys: Sequence[str], values: Mapping[str, float]) -> list
     return [values.get(key, resolved.get(key)) for key in keys]
 
 
-def _figures(evaluation: Evaluation) -> list[str]:
-    return _shown([getattr(evaluation.performance, name) for name in FIGURES])
-
-
-def _shown(values: Iterable[Value | None]) -> list[str]:
+def _shown(values: Iterable[Cell]) -> list[str]:
     return ["" if value is None else value if isinstance(value, str) else repr(value) for value in values]
 
 

@@ -11,7 +11,7 @@ import toy
 from fluxbore.design.errors import OutputError
 from fluxbore.optimize import journal as journal_module
 from fluxbore.optimize.evaluation import INVALID, failure
-from fluxbore.optimize.folder import JOURNAL, MARKER, open_folder, write_atomic
+from fluxbore.optimize.folder import JOURNAL, MARKER, OUTPUTS, open_folder, write_atomic
 
 SPEC, OTHER = toy.spec(), toy.spec(sweeps=(toy.square(),))
 
@@ -46,7 +46,7 @@ def test_another_specifications_results_need_force(tmp_path):
     """Catches results of two specifications in one folder, and a journal lost with them: it is keyed by design."""
     with open_folder(tmp_path, SPEC) as folder:
         folder.journal.put("a", "sweep", {}, failure("fem", INVALID, "Why."))
-        for name in ("results.csv", "design.toml", "report.html"):
+        for name in OUTPUTS:
             folder.write(name, "old")
         folder.write("cad/old.step", STEP.format("old.step", "fluxbore 1.0"))
         folder.write("cad/parts/yoke.step", STEP.format("yoke.step", "fluxbore 1.0"))
