@@ -23,6 +23,9 @@ from fluxbore.design.units import format_quantity
 
 _Part = TypeVar("_Part", BackYoke, Winding, Cylinder, Mover, Shaft, Piston, EndCaps)
 
+ENAMELLED = 1.1
+"""Diameter of an enamelled wire over the bare one: 0.439 mm of 0.4 mm, grade 1 of IEC 60317-0-1; thicker wires less."""
+
 ROUNDING = 1e-9
 """m; a position this far beyond the stroke's end is the end."""
 
@@ -71,6 +74,8 @@ def resolve(given: Values) -> dict[str, Value]:
         values[winding + "turns"] = number(winding + "turns_density") * room
     else:
         values[winding + "turns_density"] = number(winding + "turns") / room if room > 0 else math.inf
+    values.setdefault(winding + "insulated_diameter", ENAMELLED * number(winding + "wire_diameter"))
+    values.setdefault("operating_point.peak_current", number("operating_point.current"))
     return values
 
 
@@ -100,8 +105,10 @@ def from_values(values: Values) -> HybridActuator:
 
 
 def check_window(values: Values) -> None:
-    """Raise SpecError where the window of positions leaves the stroke or runs backwards."""
+    """Raise SpecError where the window of positions leaves the stroke or runs backwards, or the operating point
+    contradicts itself."""
     actuator = from_values(values)
+    _check_operating_point(values)
     low = actuator.mid_stroke - actuator.mover.stroke / 2
     high = actuator.mid_stroke + actuator.mover.stroke / 2
 
@@ -129,3 +136,18 @@ def positions(values: Values) -> tuple[float, ...]:
     if count == 1:
         return ((first + last) / 2,)
     return tuple(first + (last - first) * i / (count - 1) for i in range(count))
+
+
+def _check_operating_point(values: Values) -> None:
+    """Raise SpecError where a smaller value must not exceed a larger one and does."""
+    for small, large, dimension in (
+        ("operating_point.current", "operating_point.peak_current", "current"),
+        ("operating_point.ambient_temperature", "operating_point.winding_temperature_limit", "temperature"),
+        ("actuator.winding.wire_diameter", "actuator.winding.insulated_diameter", "length"),
+    ):
+        least, value = float(values[small]), float(values[large])
+        if value < least:
+            raise SpecError(
+                f"{large} must not be below {small} {format_quantity(least, dimension, 6)}; "
+                f"got {format_quantity(value, dimension, 6)}."
+            )

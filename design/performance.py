@@ -12,8 +12,8 @@ from dataclasses import dataclass, field, fields
 from fluxbore.design.units import DIMENSIONS, format_quantity
 
 
-def _figure(dimension: str, doc: str) -> float | None:
-    return field(default=None, metadata={"dimension": dimension, "doc": doc})
+def _figure(dimension: str, doc: str, *, signed: bool = False) -> float | None:
+    return field(default=None, metadata={"dimension": dimension, "doc": doc, "signed": signed})
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -31,8 +31,10 @@ class Performance:
     motor_constant: float | None = _figure("motor constant", "force constant over the root of 3/2 the phase resistance")
     winding_resistance: float | None = _figure("resistance", "of one phase, at the winding's temperature")
     turns: float | None = _figure("count", "turns of one phase; fractional where a density of turns is held")
-    pneumatic_force_advance: float | None = _figure("force", "gauge pressure times the catalogue bore's area")
-    pneumatic_force_retract: float | None = _figure("force", "the same less the shaft's area")
+    pneumatic_force_advance: float | None = _figure(
+        "force", "gauge pressure times the catalogue bore's area", signed=True
+    )
+    pneumatic_force_retract: float | None = _figure("force", "the same less the shaft's area", signed=True)
     moving_mass: float | None = _figure("mass", "shaft, magnets, rings and pistons")
     total_mass: float | None = _figure("mass", "all parts")
     stray_field: float | None = _figure(
@@ -57,19 +59,122 @@ class Performance:
     electric_loading: float | None = _figure(
         "electric loading", "peak K_sp of the sinusoidal current sheet at the spec's current"
     )
+    # The drive: what the field and the supply allow.
+    phase_inductance: float | None = _figure(
+        "inductance",
+        "flux linkage of a phase per ampere of balanced three-phase current (self less mutual), incremental at no "
+        "current",
+    )
+    peak_force: float | None = _figure(
+        "force",
+        "thrust at the peak current on the q axis in the middle of the window, less the cogging there",
+        signed=True,
+    )
+    saturation_ratio: float | None = _figure(
+        "fraction", "peak force over force constant times peak current: 100 % without saturation"
+    )
+    peak_thrust: float | None = _figure(
+        "force",
+        "pneumatic force, advancing, and the electromagnetic force at the peak current",
+        signed=True,
+    )
+    back_emf: float | None = _figure("voltage", "amplitude of a phase at the speed: 2/3 of force constant times speed")
+    voltage_demand: float | None = _figure(
+        "voltage", "amplitude of a phase that the current needs at the speed, over resistance, inductance and back-EMF"
+    )
+    voltage_margin: float | None = _figure(
+        "voltage",
+        "supply voltage over the root of 3 less the voltage demand; below zero the supply is too low",
+        signed=True,
+    )
+    no_load_speed: float | None = _figure("speed", "at which the back-EMF alone takes the whole supply voltage")
+    speed_limit: float | None = _figure(
+        "speed",
+        "to which the supply voltage can push the spec's current; below zero not even at rest",
+        signed=True,
+    )
+    # The magnets under the worst of no current and peak current.
+    demagnetisation_margin: float | None = _figure(
+        "fraction",
+        "least (H_cJ - reverse field)/H_cJ in the magnets at temperature, at no current and at the peak current",
+        signed=True,
+    )
+    peak_demagnetised_fraction: float | None = _figure(
+        "fraction", "the demagnetised fraction at the peak current, on the q axis of either sign"
+    )
+    # Losses and temperature.
     copper_loss: float | None = _figure("power", "3/2 I^2 R at the spec's current amplitude")
+    iron_loss: float | None = _figure(
+        "power", "hysteresis and eddy currents of the solid yoke at the speed, over the magnet array's length"
+    )
+    eddy_loss: float | None = _figure(
+        "power", "eddy currents in the cylinder's wall at the speed, over the magnet array's length"
+    )
+    drag_force: float | None = _figure("force", "braking force of the eddy currents and of the yoke's hysteresis")
+    winding_temperature: float | None = _figure(
+        "temperature",
+        "mean of the winding, in steady state in still air, at the spec's current, duty and speed; not given where the "
+        "copper runs away",
+    )
+    continuous_current: float | None = _figure(
+        "current",
+        "amplitude that heats the winding to its limit at the spec's duty and speed; below zero where the other losses "
+        "alone exceed it",
+        signed=True,
+    )
+    continuous_thrust: float | None = _figure("force", "force constant times continuous current", signed=True)
+    # The air cylinder and the rod.
+    hoop_stress: float | None = _figure(
+        "stress", "circumferential, at the bore of the cylinder under the pressure", signed=True
+    )
+    cylinder_safety: float | None = _figure(
+        "count", "yield stress of the cylinder over its equivalent (von Mises) stress at the bore"
+    )
+    bore_dilation: float | None = _figure(
+        "length",
+        "radial displacement of the bore under the pressure; inwards, below zero, under vacuum",
+        signed=True,
+    )
+    bore_clearance: float | None = _figure(
+        "length",
+        "radial, between mover and bore: (D_c' - D_m)/2 and the bore dilation, which opens it under pressure",
+        signed=True,
+    )
+    shaft_stress: float | None = _figure("stress", "axial, under the peak thrust", signed=True)
+    shaft_safety: float | None = _figure("count", "yield stress of the shaft over the shaft stress")
+    buckling_force: float | None = _figure(
+        "force", "critical axial load of the rod's free length when extended, by Euler and, where stocky, by Johnson"
+    )
+    buckling_safety: float | None = _figure("count", "buckling force over peak thrust")
+    seal_friction: float | None = _figure(
+        "force", "kinetic friction of the piston's seals at pressure and speed; at rest that of breaking away"
+    )
+    # What a workshop makes.
+    fill_factor: float | None = _figure("fraction", "share of the winding's window that is copper")
+    winding_layers: float | None = _figure(
+        "count", "layers of insulated wire in a coil, as a continuous number: turns times wire over the coil's width"
+    )
+    winding_room: float | None = _figure(
+        "length",
+        "radial room that the layers leave in the window, wires stacked in squares; below zero they do not fit",
+        signed=True,
+    )
+    yoke_wall: float | None = _figure("length", "wall of the back yoke")
+    cylinder_wall: float | None = _figure("length", "wall of the air cylinder")
+    magnet_wall: float | None = _figure("length", "radial wall of the magnets: (D_m - D_s)/2")
     outer_diameter: float | None = _figure("length", "of the whole actuator")
     length: float | None = _figure("length", "of the stator over its end caps")
 
 
 @dataclass(frozen=True, slots=True)
 class Figure:
-    """What a figure is: its dimension's name, SI unit, preferred unit and meaning."""
+    """What a figure is: its dimension's name, SI unit, meaning, and whether it can fall below zero."""
 
     name: str
     dimension: str
     si: str
     doc: str
+    signed: bool
 
 
 SMALL_FIELD = 0.01
@@ -83,6 +188,7 @@ FIGURES: dict[str, Figure] = {
         item.metadata["dimension"],
         _PLAIN.get(item.metadata["dimension"]) or DIMENSIONS[item.metadata["dimension"]].si,
         item.metadata["doc"],
+        item.metadata["signed"],
     )
     for item in fields(Performance)
 }

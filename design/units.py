@@ -103,6 +103,12 @@ DIMENSIONS: dict[str, Dimension] = {
             {"ohm m": Unit(1.0), "ohm mm^2/m": Unit(1e-6), "uohm cm": Unit(1e-8), "nohm m": Unit(1e-9)},
         ),
         Dimension("temperature coefficient", "1/K", "%/K", {"%/K": Unit(1e-2), "1/K": Unit(1.0)}),
+        Dimension("speed", "m/s", "m/s", {"m/s": Unit(1.0), "mm/s": Unit(1e-3)}),
+        Dimension("voltage", "V", "V", _scaled(V=1.0, mV=1e-3, kV=1e3)),
+        Dimension("inductance", "H", "mH", _scaled(H=1.0, mH=1e-3, uH=1e-6)),
+        Dimension("thermal conductivity", "W/(m K)", "W/(m K)", {"W/(m K)": Unit(1.0)}),
+        Dimension("viscous friction", "N s/m", "N s/m", {"N s/m": Unit(1.0)}),
+        Dimension("energy density", "J/m^3", "J/m^3", {"J/m^3": Unit(1.0), "kJ/m^3": Unit(1e3)}),
     )
 }
 """Every dimension a specification can hold, by name; their unit tables are all the units there are."""

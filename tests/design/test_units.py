@@ -38,6 +38,12 @@ INDEPENDENT = {
     "field strength": {"A/m": 1.0, "kA/m": 1e3, "Oe": 79.57747154594767, "kOe": 79577.47154594767},
     "resistivity": {"ohm m": 1.0, "ohm mm^2/m": 1e-6, "uohm cm": 1e-8, "nohm m": 1e-9},
     "temperature coefficient": {"%/K": 0.01, "1/K": 1.0},
+    "speed": {"m/s": 1.0, "mm/s": 1e-3},
+    "voltage": {"V": 1.0, "mV": 1e-3, "kV": 1e3},
+    "inductance": {"H": 1.0, "mH": 1e-3, "uH": 1e-6},
+    "thermal conductivity": {"W/(m K)": 1.0},
+    "viscous friction": {"N s/m": 1.0},
+    "energy density": {"J/m^3": 1.0, "kJ/m^3": 1e3},
 }
 """SI value of one unit, for every dimension without an offset."""
 
