@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -28,7 +28,7 @@ GLOBAL = ("DIRECT-L", "CRS2", "ISRES")
 
 @dataclass(frozen=True, slots=True)
 class Ending:
-    """Why a run ended: a sentence, and the exception that the function stopped it with, if it did."""
+    """Why a run of NLopt ended: a sentence, and the exception that the function stopped it with, if it did."""
 
     reason: str
     stopped_by: BaseException | None = None
@@ -55,11 +55,9 @@ def minimise(
     an augmented Lagrangian, the other global ones through an exact penalty.
     """
     import nlopt
-    import numpy as np
 
     nlopt.srand(seed)
-    size = len(start)
-    if algorithm == "BOBYQA" and size < 2:
+    if algorithm == "BOBYQA" and len(start) < 2:
         algorithm = "COBYLA"  # BOBYQA's quadratic model needs two variables
     native = algorithm in _NATIVE
     lagrangian = algorithm == "BOBYQA" and constraints > 0
@@ -81,25 +79,47 @@ def minimise(
     def misses(result: Any, x: Any, _gradient: Any) -> None:
         result[:] = call(x)[1]
 
-    def optimiser(name: str) -> Any:
-        made = nlopt.opt(getattr(nlopt, name), size)
-        made.set_ftol_rel(objective_tolerance)
-        made.set_xtol_abs(variable_tolerance)
-        made.set_maxeval(calls)
-        return made
+    opt = _optimiser(algorithm, lagrangian, len(start), step, objective_tolerance, variable_tolerance, calls)
+    opt.set_min_objective(loss)
+    if constraints and (native or lagrangian):
+        opt.add_inequality_mconstraint(misses, [0.0] * constraints)
+    return run(opt, start, stopped, objective_tolerance, variable_tolerance)
 
-    opt = optimiser("AUGLAG" if lagrangian else _NAMES[algorithm])
+
+def _optimiser(
+    algorithm: str, lagrangian: bool, size: int, step: float, objective: float, variable: float, calls: int
+) -> Any:
+    """NLopt's object for the unit box, with its stop rule; the tolerances are those of `minimise`."""
+    import nlopt
+    import numpy as np
+
+    def made(name: str) -> Any:
+        opt = nlopt.opt(getattr(nlopt, name), size)
+        opt.set_ftol_rel(objective)
+        opt.set_xtol_abs(variable)
+        opt.set_maxeval(calls)
+        return opt
+
+    opt = made("AUGLAG" if lagrangian else _NAMES[algorithm])
     if lagrangian:
-        opt.set_local_optimizer(optimiser(_NAMES[algorithm]))
+        opt.set_local_optimizer(made(_NAMES[algorithm]))
     opt.set_lower_bounds(np.zeros(size))
     opt.set_upper_bounds(np.ones(size))
     opt.set_initial_step(np.full(size, step))
     if algorithm in ("CRS2", "ISRES"):
         # NLopt's default populations are meant for thousands of evaluations.
         opt.set_population(max(3 * (size + 1), min(10 * (size + 1), calls // 10)))
-    opt.set_min_objective(loss)
-    if constraints and (native or lagrangian):
-        opt.add_inequality_mconstraint(misses, np.zeros(constraints))
+    return opt
+
+
+def run(opt: Any, start: Any, stopped: Sequence[BaseException], objective: float, variable: float) -> Ending:
+    """Run NLopt's object; ``stopped`` is where its functions leave what they were stopped by.
+
+    objective, variable : the tolerances, for the sentence.
+    """
+    import nlopt
+    import numpy as np
+
     try:
         opt.optimize(np.asarray(start, dtype=float))
     except (nlopt.ForcedStop, nlopt.RoundoffLimited, RuntimeError, ValueError, MemoryError) as error:
@@ -107,9 +127,7 @@ def minimise(
             return Ending(_WORDS.get(_code(opt), f"NLopt gave up: {error or type(error).__name__}."))
     if stopped:
         return Ending("The search was stopped.", stopped[0])
-    return Ending(
-        _WORDS.get(_code(opt), "The search ended.").format(objective=objective_tolerance, variable=variable_tolerance)
-    )
+    return Ending(_WORDS.get(_code(opt), "The search ended.").format(objective=objective, variable=variable))
 
 
 def _code(opt: Any) -> int:

@@ -56,6 +56,73 @@ class Candidate:
 
 
 @dataclass(frozen=True, slots=True)
+class Multiplier:
+    """What moving one limit or bound would do to the objective, to first order.
+
+    subject, sense : as a `Limit`'s; ``bound`` where it is a variable's own bound. limit, value : SI, of the limit and
+    of the design. per_unit : d objective / d limit (both SI): a limit of a diameter moved by +1 m changes the objective
+    by so much. share : the same in plain numbers, relative objective per relative limit (per range, of a bound); >= 0.
+    """
+
+    subject: str
+    sense: str
+    limit: float
+    value: float
+    per_unit: float
+    share: float
+    bound: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Optimality:
+    """How nearly the best continuous design fulfils the conditions of Karush, Kuhn and Tucker, by exact gradients.
+
+    residual : see `fluxbore.optimize.optimality.residual`; relative objective per range of a variable, so that 1e-3
+    promises about a thousandth of the objective for a walk across the whole range. multipliers : of what is active, the
+    largest share first.
+    """
+
+    residual: float
+    multipliers: tuple[Multiplier, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Clash:
+    """A limit or a bound that takes part in a conflict.
+
+    missed : SI, >= 0, how far the least infeasible design is beyond it; 0 for a bound. relative : the same of the
+    limit's size.
+    weight : of this one in the conflict, their sum over the limits being 1: moving it by 1 % of its size (a bound by
+    1 % of its range) brings the worst miss down by weight x 1 %. alone : SI, how far it would have to give way, alone, for
+    every limit to hold, to first order. Both None where there are no gradients.
+    """
+
+    subject: str
+    sense: str
+    limit: float
+    value: float
+    missed: float
+    relative: float
+    weight: float | None = None
+    alone: float | None = None
+    bound: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Conflict:
+    """Why no design is feasible: the limits that exclude one another around the least infeasible design.
+
+    values : that design's variables (SI). worst : its largest relative miss. clashes : the heaviest first.
+    settled : whether the least infeasible design was found by gradients, so that (locally) none is less infeasible.
+    """
+
+    values: Mapping[str, float]
+    worst: float
+    clashes: tuple[Clash, ...]
+    settled: bool = False
+
+
+@dataclass(frozen=True, slots=True)
 class SearchResult:
     """The search from beginning to end.
 
@@ -65,6 +132,8 @@ class SearchResult:
     rounded : the best design at the workshop's resolution, re-evaluated; None where no variable has a resolution.
     reused : how many designs of the history stood in the journal already; seconds are this run's.
     stop_reason : a sentence; ending : what sort of end that was, whatever had been found by then.
+    optimality : of ``best``; None where the model gives no gradients. conflict : where no design was feasible.
+    algorithm : the search that ran, where the study asks for "auto".
     """
 
     start: Candidate
@@ -77,6 +146,9 @@ class SearchResult:
     seconds: float
     ending: SearchEnding = "done"
     reused: int = 0
+    optimality: Optimality | None = None
+    conflict: Conflict | None = None
+    algorithm: str = ""
 
     @property
     def replayed(self) -> bool:
