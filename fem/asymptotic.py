@@ -17,6 +17,10 @@ dipole has r ∂ψ/∂r = (2 − 3 r²/R²) ψ < 2 ψ, so that c0 > −2 ν0/r, 
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
 import numpy as np
 
 from fluxbore.fem.mapped import MappedMesh
@@ -29,22 +33,94 @@ _T, _W = (_POINTS + 1) / 2, _WEIGHTS / 2
 _SHAPE = np.column_stack(((1 - _T) * (1 - 2 * _T), _T * (2 * _T - 1), 4 * _T * (1 - _T)))
 """(4, 3) of an edge's start, end and middle."""
 
+_STEP = 1e-30
+"""m or m²; so small that its square vanishes."""
 
-def across_shell(radius: float, z: Floats, poles: tuple[float, float]) -> Floats:
+Values = Any
+"""Numbers or arrays, real or complex."""
+
+
+def across_shell(radius: Values, z: Values, poles: tuple[Values, Values]) -> Values:
     """(...) −(∂ψ/∂r)/ψ (1/m) on a cylinder at z (...) in m, of dipoles spread evenly between two poles' z (m)."""
     from_first, from_second = z - poles[0], z - poles[1]
-    first, second = np.hypot(radius, from_first), np.hypot(radius, from_second)
+    first, second = _distance(radius, from_first), _distance(radius, from_second)
     psi = from_first / first - from_second / second
-    return np.asarray(radius * (from_first / first**3 - from_second / second**3) / psi)
+    return radius * (from_first / first**3 - from_second / second**3) / psi
 
 
-def across_end(r: Floats, distances: tuple[float, float]) -> Floats:
+def across_end(r: Values, distances: tuple[Values, Values]) -> Values:
     """(...) −(∂ψ/∂n)/ψ (1/m) at r (...) in m on a plane at these distances (m) from the poles, the nearer one first."""
     near, far = distances
-    to_near, to_far = np.hypot(r, near), np.hypot(r, far)
+    to_near, to_far = _distance(r, near), _distance(r, far)
     # ψ/r², with 1 − cos θ = r²/(R (R + z)): nothing cancels on the axis.
     psi = 1 / (to_near * (to_near + near)) - 1 / (to_far * (to_far + far))
-    return np.asarray((1 / to_near**3 - 1 / to_far**3) / psi)
+    return (1 / to_near**3 - 1 / to_far**3) / psi
+
+
+def _distance(r: Values, z: Values) -> Values:
+    """√(r² + z²), for complex steps too."""
+    return np.sqrt(r * r + z * z)
+
+
+def _shell(start: Values, end: Values, radius: Values, first: Values, second: Values) -> Values:
+    """(k, 4) ν0 c/r dl at the Gauss points of edges from start to end (k, 1) in z, on a cylinder."""
+    length = end - start
+    z = start + length * _T
+    return VACUUM_RELUCTIVITY * length * _W * across_shell(radius, z, (first, second)) / radius
+
+
+def _end(start: Values, end: Values, z: Values, first: Values, second: Values) -> Values:
+    """(k, 4) the same of edges from start to end (k, 1) in s, on a plane at z."""
+    width = end - start
+    s = start + width * _T
+    # The pole that is nearer, and distances that are positive, on either side of the machine.
+    side = 1.0 if np.real(z) > np.real(second) else -1.0
+    near, far = (second, first) if side > 0 else (first, second)
+    # dl/r = dr/r = ds/(2 s) along an end.
+    return VACUUM_RELUCTIVITY * width * _W * across_end(np.sqrt(2 * s), (side * (z - near), side * (z - far))) / (2 * s)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Rim:
+    """Edges of one side: their factors' arguments, and where they are.
+
+    along : 0 for an end, whose edges run in s, 1 for the shell. numbers : (k,) of the grid line where each edge starts,
+    among all node rows of its direction. nodes : (k, 3) start, end, middle. cells : (k,).
+    """
+
+    factor: Callable[..., Values]
+    arguments: tuple[Any, ...]
+    along: int
+    numbers: Ints
+    nodes: Ints
+    cells: Ints
+
+
+def _rims(grid: MappedMesh, poles: tuple[float, float]) -> list[_Rim]:
+    rows, columns = 2 * np.arange(grid.z_lines.size - 1), 2 * np.arange(grid.r_lines.size - 1)
+    last_row, last_column = 2 * rows.size, 2 * columns.size
+    rims = [
+        _Rim(
+            _shell,
+            (grid.z_nodes[rows][:, None], grid.z_nodes[rows + 2][:, None], float(grid.r_lines[-1]), *poles),
+            1,
+            rows,
+            np.stack([grid.node(rows + k, last_column) for k in (0, 2, 1)], axis=-1),
+            rows // 2 * columns.size + columns.size - 1,
+        )
+    ]
+    for row, end in ((0, float(grid.z_lines[0])), (last_row, float(grid.z_lines[-1]))):
+        rims.append(
+            _Rim(
+                _end,
+                (grid.r_nodes[columns][:, None], grid.r_nodes[columns + 2][:, None], end, *poles),
+                0,
+                columns,
+                np.stack([grid.node(row, columns + k) for k in (0, 2, 1)], axis=-1),
+                min(row // 2, rows.size - 1) * columns.size + columns // 2,
+            )
+        )
+    return rims
 
 
 def open_edges(grid: MappedMesh, poles: tuple[float, float]) -> EdgeTerms:
@@ -52,32 +128,56 @@ def open_edges(grid: MappedMesh, poles: tuple[float, float]) -> EdgeTerms:
 
     poles : z of the machine's two ends (m); between the far edges.
     """
-    rows, columns = 2 * np.arange(grid.z_lines.size - 1), 2 * np.arange(grid.r_lines.size - 1)
-    last_row, last_column = 2 * rows.size, 2 * columns.size
-    radius = float(grid.r_lines[-1])
-    z, length = _along(grid.z_nodes, rows)
-    factors = [length * across_shell(radius, z, poles) / radius]
-    nodes = [np.stack([grid.node(rows + k, last_column) for k in (0, 2, 1)], axis=-1)]
-    cells = [rows // 2 * columns.size + columns.size - 1]
-    s, width = _along(grid.r_nodes, columns)
-    for row, end in ((0, float(grid.z_lines[0])), (last_row, float(grid.z_lines[-1]))):
-        near, far = sorted((abs(end - poles[0]), abs(end - poles[1])))
-        # dl/r = dr/r = ds/(2 s) along an end.
-        factors.append(width * across_end(np.sqrt(2 * s), (near, far)) / (2 * s))
-        nodes.append(np.stack([grid.node(row, columns + k) for k in (0, 2, 1)], axis=-1))
-        cells.append(min(row // 2, rows.size - 1) * columns.size + columns // 2)
-    matrices = np.einsum("kt,ti,tj->kij", np.concatenate(factors), _SHAPE, _SHAPE, optimize=True)
-    elements, places = _owners(grid.mesh.elements, np.concatenate(cells), np.concatenate(nodes))
+    rims = _rims(grid, poles)
+    factors = np.concatenate([np.real(rim.factor(*rim.arguments)) for rim in rims])
+    matrices = np.einsum("kt,ti,tj->kij", factors, _SHAPE, _SHAPE, optimize=True)
+    elements, places = _owners(
+        grid.mesh.elements, np.concatenate([rim.cells for rim in rims]), np.concatenate([rim.nodes for rim in rims])
+    )
     full = np.zeros((elements.size, 6, 6))
     k = np.arange(elements.size)[:, None, None]
-    full[k, places[:, :, None], places[:, None, :]] = VACUUM_RELUCTIVITY * matrices
+    full[k, places[:, :, None], places[:, None, :]] = matrices
     return EdgeTerms(elements, full, np.zeros(grid.mesh.nodes.shape[0]))
 
 
-def _along(nodes: Floats, starts: Ints) -> tuple[Floats, Floats]:
-    """(k, 4) coordinate of each edge's Gauss points, and their weights times the edge's length."""
-    length = nodes[starts + 2] - nodes[starts]
-    return nodes[starts][:, None] + length[:, None] * _T, length[:, None] * _W
+@dataclass(frozen=True, slots=True, eq=False)
+class RimDerivative:
+    """s : (columns, k) by the s of the grid's node columns. z : (rows, k) by the z of its node rows. poles : (2, k)."""
+
+    s: Floats
+    z: Floats
+    poles: Floats
+
+
+def rim_derivative(grid: MappedMesh, poles: tuple[float, float], u: Floats, v: Floats) -> RimDerivative:
+    """Of ∫ ν0 c/r u v dl along the open rim, for pairs of nodal fields u, v (n, k).
+
+    By complex steps (Squire and Trapp 1998), which are exact to rounding: c is made of nothing but roots and ratios.
+    """
+    columns = u.shape[1]
+    found = RimDerivative(
+        np.zeros((grid.r_nodes.size, columns)), np.zeros((grid.z_nodes.size, columns)), np.zeros((2, columns))
+    )
+    for rim in _rims(grid, poles):
+        at_points = np.einsum("ti,kic->ktc", _SHAPE, u[rim.nodes]) * np.einsum("ti,kic->ktc", _SHAPE, v[rim.nodes])
+
+        def by(place: int, rim: _Rim = rim, at_points: Floats = at_points) -> Floats:
+            """(k, columns) by an argument of the factor, of each edge."""
+            moved = list(rim.arguments)
+            moved[place] = moved[place] + 1j * _STEP
+            slope = np.imag(rim.factor(*moved)) / _STEP
+            return np.einsum("kt,ktc->kc", np.broadcast_to(slope, at_points.shape[:2]), at_points)
+
+        lines, across = (found.z, found.s) if rim.along else (found.s, found.z)
+        np.add.at(lines, rim.numbers, by(0))
+        np.add.at(lines, rim.numbers + 2, by(1))
+        if rim.along:
+            radius = float(grid.r_lines[-1])
+            across[-1] += by(2).sum(axis=0) / radius  # ds = r dr
+        else:
+            across[0 if rim.arguments[2] == grid.z_lines[0] else -1] += by(2).sum(axis=0)
+        found.poles[:] += np.stack((by(3).sum(axis=0), by(4).sum(axis=0)))
+    return found
 
 
 def _owners(elements: Ints, cells: Ints, edges: Ints) -> tuple[Ints, Ints]:

@@ -56,18 +56,26 @@ def along_radius(solution: Solution, grid: MappedMesh, radius: float, outside: b
 
     outside : whether the elements just outside the line are asked, or those just inside it.
     """
-    column = 2 * int(np.argmin(np.abs(grid.r_lines - radius)))
+    mesh = solution.problem.mesh
+    line = grid.r_nodes[grid.column(radius)]
+    strip = line_strip(solution, grid, radius, outside)
+    slack = 1e-9 * line
+    nodes, field = nodal_flux_density(solution, strip)
+    on_line = np.flatnonzero(np.abs(mesh.nodes[nodes, 0] - line) < slack)
+    order = on_line[np.argsort(mesh.nodes[nodes[on_line], 1])]
+    return mesh.nodes[nodes[order], 1], field[order]
+
+
+def line_strip(solution: Solution, grid: MappedMesh, radius: float, outside: bool = True) -> Ints:
+    """The elements just outside (or inside) a mesh line of constant radius (m)."""
+    column = grid.column(radius)
     mesh = solution.problem.mesh
     line = grid.r_nodes[column]
     neighbour = grid.r_nodes[column + (2 if outside else -2)]
     low, high = min(line, neighbour), max(line, neighbour)
     corners = mesh.nodes[mesh.elements[:, :3], 0]
     slack = 1e-9 * high
-    strip = np.flatnonzero(np.all((corners > low - slack) & (corners < high + slack), axis=1))
-    nodes, field = nodal_flux_density(solution, strip)
-    on_line = np.flatnonzero(np.abs(mesh.nodes[nodes, 0] - line) < slack)
-    order = on_line[np.argsort(mesh.nodes[nodes[on_line], 1])]
-    return mesh.nodes[nodes[order], 1], field[order]
+    return np.flatnonzero(np.all((corners > low - slack) & (corners < high + slack), axis=1))
 
 
 def flux_map(solution: Solution) -> FluxMap:

@@ -4,37 +4,78 @@ from __future__ import annotations
 
 import numpy as np
 
+from fluxbore.fem.adjoint import node_derivative
 from fluxbore.fem.element import QUADRATURE_POINTS, shape
 from fluxbore.fem.magnetostatics import Solution
-from fluxbore.fem.mesh import Floats
+from fluxbore.fem.mesh import Floats, Ints
 from fluxbore.fem.reluctivity import VACUUM_RELUCTIVITY
 
 
-def axial_force_gradient(solution: Solution, annulus: tuple[float, float]) -> Floats:
+def axial_force_gradient(solution: Solution, annulus: tuple[float, float], field: Floats | None = None) -> Floats:
     """g (n,) with  F = ½ g·ψ  and  ∂F/∂ψ = g, for the axial force F (N) on everything inside the annulus.
 
     annulus : (r from, r to) in m, mesh lines, with nothing but air (μ0) between them over the domain's whole length.
+    field : (n,) in place of ψ, on which g depends linearly: F is ½ ψᵀ G ψ, and g is G times the field.
 
     The weight falls linearly in s = r²/2 from one at the inner to zero at the outer radius, so that
     F = −(2π/μ0) ∫∫ ∂ψ/∂z ∂ψ/∂s ds dz / (s_o − s_i): Maxwell's stress averaged over the shell (Arkkio 1987), and at the
     same time the exact derivative of the discrete energy when the mesh inside is shifted (Coulomb 1983).
     """
     mesh = solution.problem.mesh
+    shell = _shell(solution, annulus)
+    curl = solution.system.kernel.curl[shell]
+    values = (solution.psi if field is None else field)[mesh.elements[shell]]
+    rows = np.einsum("mqkn,mn->mqk", curl, values, optimize=True)
+    # Row 1 of the kernel is ψ_z/√(2s): take the radius out again.
+    factor = _scale(annulus) * solution.system.kernel.weight[shell] * _radius(solution, shell)
+    gradient = np.einsum(
+        "mqn,mq->mn", curl[:, :, 0] * rows[:, :, 1, None] + curl[:, :, 1] * rows[:, :, 0, None], factor, optimize=True
+    )
+    return np.asarray(np.bincount(mesh.elements[shell].ravel(), gradient.ravel(), mesh.nodes.shape[0]))
+
+
+def stress_derivative(
+    solution: Solution, annulus: tuple[float, float], x: Floats
+) -> tuple[Floats, tuple[float, float]]:
+    """Derivative of xᵀ G ψ (see `axial_force_gradient`) by the nodes (n, 2) and by s = r²/2 at the annulus's radii."""
+    mesh = solution.problem.mesh
+    shell = _shell(solution, annulus)
+    kernel = solution.system.kernel
+    m, q = shell.size, QUADRATURE_POINTS.shape[0]
+    rows = kernel.curl[shell].reshape(m, 2 * q, 6)
+    both = np.column_stack((solution.psi, x))[mesh.elements[shell]]
+    fields = (rows @ both).reshape(m, q, 2, 2)
+    radius = _radius(solution, shell)
+    density = (
+        _scale(annulus) * radius * (fields[:, :, 0, 0] * fields[:, :, 1, 1] + fields[:, :, 1, 0] * fields[:, :, 0, 1])
+    )
+    turned = _scale(annulus) * radius[..., None, None] * fields[:, :, ::-1]
+    pairs = ((turned[..., 1:], fields[..., :1]), (turned[..., :1], fields[..., 1:]))
+    weight = kernel.weight[shell]
+    nodes = node_derivative(mesh.topology, rows, weight, 1 / radius, None, density[..., None], pairs, shell)[..., 0]
+    s_inner, s_outer = annulus[0] ** 2 / 2, annulus[1] ** 2 / 2
+    value = float(np.sum(weight * density))
+    return nodes, (value / (s_outer - s_inner), -value / (s_outer - s_inner))
+
+
+def _shell(solution: Solution, annulus: tuple[float, float]) -> Ints:
+    """The elements within the annulus."""
+    mesh = solution.problem.mesh
     s_inner, s_outer = annulus[0] ** 2 / 2, annulus[1] ** 2 / 2
     corners = mesh.nodes[mesh.elements[:, :3], 0]
     slack = 1e-9 * s_outer
-    shell = np.flatnonzero(np.all((corners > s_inner - slack) & (corners < s_outer + slack), axis=1))
-    kernel = solution.system.kernel
-    curl = kernel.curl[shell]
-    psi = solution.psi[mesh.elements[shell]]
-    field = np.einsum("mqkn,mn->mqk", curl, psi, optimize=True)
-    s = np.einsum("qn,mn->mq", shape(QUADRATURE_POINTS), mesh.nodes[mesh.elements[shell], 0], optimize=True)
-    # Row 1 of the kernel is ψ_z/√(2s): take the radius out again.
-    factor = -2 * np.pi * VACUUM_RELUCTIVITY / (s_outer - s_inner) * kernel.weight[shell] * np.sqrt(2 * s)
-    gradient = np.einsum(
-        "mqn,mq->mn", curl[:, :, 0] * field[:, :, 1, None] + curl[:, :, 1] * field[:, :, 0, None], factor, optimize=True
-    )
-    return np.asarray(np.bincount(mesh.elements[shell].ravel(), gradient.ravel(), mesh.nodes.shape[0]))
+    return np.flatnonzero(np.all((corners > s_inner - slack) & (corners < s_outer + slack), axis=1))
+
+
+def _radius(solution: Solution, elements: Ints) -> Floats:
+    """(m, q) r (m) at the quadrature points."""
+    mesh = solution.problem.mesh
+    s = np.einsum("qn,mn->mq", shape(QUADRATURE_POINTS), mesh.nodes[mesh.elements[elements], 0], optimize=True)
+    return np.asarray(np.sqrt(2 * s))
+
+
+def _scale(annulus: tuple[float, float]) -> float:
+    return -2 * np.pi * VACUUM_RELUCTIVITY / (annulus[1] ** 2 / 2 - annulus[0] ** 2 / 2)
 
 
 def axial_force(solution: Solution, annulus: tuple[float, float]) -> float:

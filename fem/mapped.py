@@ -64,6 +64,10 @@ class MappedMesh:
         """Number of the node in z row i and s column j."""
         return np.asarray(np.asarray(i) * self.r_nodes.size + np.asarray(j))
 
+    def column(self, radius: float) -> int:
+        """Number of the node column on the mesh line nearest to a radius (m)."""
+        return 2 * int(np.argmin(np.abs(self.r_lines - radius)))
+
 
 def mapped_mesh(
     section: CrossSection,
@@ -132,3 +136,34 @@ def _grid_topology(nz: int, nr: int, open_rim: bool) -> tuple[Topology, Ints]:
         inside &= (rows > 0) & (rows < 2 * nz) & (columns < width - 1)
     freedom = np.where(inside, np.cumsum(inside) - 1, -1)
     return Topology(elements, freedom), np.repeat(np.arange(nz * nr), 2)
+
+
+def breakpoint_derivative(grid: MappedMesh, section: CrossSection, s: Floats, z: Floats) -> tuple[Floats, Floats]:
+    """(k, c) and (l, c) derivatives of c scalars by the section's breakpoints in r and z.
+
+    s, z : (columns, c) and (rows, c) by the s and z of the grid's node columns and rows, with which the nodes move.
+    """
+    by_r_lines = _from_middles(s) * grid.r_lines[:, None]  # s = r²/2
+    return (
+        _from_lines(section.r, grid.r_lines, by_r_lines),
+        _from_lines(section.z, grid.z_lines, _from_middles(z)),
+    )
+
+
+def _from_middles(nodes: Floats) -> Floats:
+    """(lines, c) from (nodes, c): half of what a middle gets is each neighbour's."""
+    lines = nodes[::2].copy()
+    lines[:-1] += nodes[1::2] / 2
+    lines[1:] += nodes[1::2] / 2
+    return lines
+
+
+def _from_lines(points: Breakpoints, lines: Floats, by_line: Floats) -> Floats:
+    """(breakpoints, c): a line between two breakpoints moves with both, in proportion to where it lies."""
+    values = np.array(points.values)
+    interval = np.clip(np.searchsorted(values, lines, side="right") - 1, 0, values.size - 2)
+    share = ((lines - values[interval]) / (values[interval + 1] - values[interval]))[:, None]
+    found = np.zeros((values.size, by_line.shape[1]))
+    np.add.at(found, interval, (1 - share) * by_line)
+    np.add.at(found, interval + 1, share * by_line)
+    return found

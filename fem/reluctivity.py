@@ -65,6 +65,17 @@ class ReluctivityCurve:
         nu = np.where(first, c1 + c3 * x * x, h / b)
         return nu, np.where(first, c3, (slope - nu) / (2 * b * b))
 
+    def curvature(self, b_squared: Floats) -> Floats:
+        """d²ν/d(B²)² (m/(H T⁴)) at |B|² (T²): continuous, for the curve is C2."""
+        b = np.sqrt(b_squared)
+        k, x = self._locate(b)
+        _, slope = self.reluctivity(b_squared)
+        c2, c3 = self.coefficients[2][k], self.coefficients[3][k]
+        first = k == 0
+        b = np.where(first, 1.0, b)
+        # H = ν B: with ' = d/d(B²), dH/dB = ν + 2 B² ν' and d²H/dB² = 6 B ν' + 4 B³ ν''.
+        return np.where(first, 0.0, (2 * c2 + 6 * c3 * x - 6 * b * slope) / (4 * b**3))
+
     def field_strength(self, b: Floats) -> Floats:
         """H (A/m) at B >= 0 (T)."""
         k, x = self._locate(b)

@@ -168,7 +168,7 @@ def tube_flux_density(tubular: TubularSolution, r_range: tuple[float, float], z_
     The flux through the tube between two radii is 2π (ψ_o − ψ_i), its area 2π (s_o − s_i).
     """
     grid, psi = tubular.grid, tubular.solution.psi
-    inner, outer = (2 * int(np.argmin(np.abs(grid.r_lines - r))) for r in r_range)
+    inner, outer = (grid.column(r) for r in r_range)
     rows = np.flatnonzero((grid.z_nodes > z_range[0]) & (grid.z_nodes < z_range[1]))
     flux = psi[grid.node(rows, outer)] - psi[grid.node(rows, inner)]
     return float(np.abs(flux).max() / (grid.r_nodes[outer] - grid.r_nodes[inner]))
@@ -180,7 +180,7 @@ def shell_flux_density(tubular: TubularSolution, radius: float, z_range: tuple[f
     The flux out of the shell is 2π times the difference of ψ between its rims.
     """
     grid, psi = tubular.grid, tubular.solution.psi
-    column = 2 * int(np.argmin(np.abs(grid.r_lines - radius)))
+    column = grid.column(radius)
     rows = np.arange(grid.z_nodes.size)
     profile = psi[grid.node(rows, column)]
     start, end = np.interp(z_range, grid.z_nodes, profile)

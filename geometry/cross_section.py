@@ -94,6 +94,37 @@ class CrossSection:
 AIR = Region("air", None)
 
 
+def numbers(section: CrossSection) -> NDArray[np.float64]:
+    """All that is continuous in a cross-section as one vector, SI: what shape gradients are derivatives by.
+
+    The breakpoints in r and in z, then of each coil its r from and to, z from and to, then the coils' turns, the
+    regions' remanences, their recoil permeabilities, and `CrossSection.ends`.
+    """
+    return np.concatenate(
+        (
+            section.r.values,
+            section.z.values,
+            np.array([(*coil.r, *coil.z) for coil in section.coils]).ravel(),
+            [coil.turns for coil in section.coils],
+            [region.remanence for region in section.regions],
+            [region.recoil_permeability for region in section.regions],
+            section.ends,
+        )
+    )
+
+
+def alike(one: CrossSection, other: CrossSection) -> bool:
+    """Whether two sections differ by their `numbers` only."""
+    return (
+        one.r.intervals == other.r.intervals
+        and one.z.intervals == other.z.intervals
+        and np.array_equal(one.cells, other.cells)
+        and [coil.circuit for coil in one.coils] == [coil.circuit for coil in other.coils]
+        and [(region.name, region.material) for region in one.regions]
+        == [(region.name, region.material) for region in other.regions]
+    )
+
+
 def paint(
     r: Breakpoints, z: Breakpoints, rectangles: Sequence[Rectangle]
 ) -> tuple[tuple[Region, ...], NDArray[np.int_]]:

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from fluxbore.design.hybrid_values import positions
 from fluxbore.design.spec import Spec, load
 from fluxbore.fem.linkage import circuits
 from fluxbore.fem.magnetostatics import Solution, solve
@@ -90,7 +91,7 @@ def motor(spec: Spec) -> Callable[..., list[TubularSolution]]:
 @pytest.fixture(scope="session")
 def window(spec: Spec, motor: Callable[..., list[TubularSolution]]) -> list[TubularSolution]:
     """The published motor over its window of eight positions."""
-    solved = motor(spec.positions)
+    solved = motor(positions(spec.values))
     assert len(solved) == 8
     assert all(item.convergence.converged for item in solved)
     return solved

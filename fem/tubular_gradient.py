@@ -1,0 +1,196 @@
+"""Adjoint gradients of a tubular machine's figures by all that is continuous in its cross-section.
+
+At each position two groups of back-substitutions with the tangent of the converged field, which Newton has left
+factorised, and one pass over the elements serve all figures: no matrix is factorised for a gradient.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import cached_property
+
+import numpy as np
+
+from fluxbore.fem.adjoint import Linearisation
+from fluxbore.fem.asymptotic import rim_derivative
+from fluxbore.fem.force import axial_force_gradient, stress_derivative
+from fluxbore.fem.functionals import Functional, on_lines
+from fluxbore.fem.linkage import WindowDerivative, window_derivative
+from fluxbore.fem.mapped import breakpoint_derivative
+from fluxbore.fem.mesh import Floats
+from fluxbore.fem.reluctivity import VACUUM_RELUCTIVITY
+from fluxbore.fem.tubular import TubularSolution, space_vector
+
+_CLARKE = np.exp(2j * np.pi / 3 * np.arange(3))
+
+
+class TubularAdjoint:
+    """One position's solution, prepared for gradients.
+
+    response : (n,) y = K_T⁻¹ ∂F/∂ψ, of the axial force. phases : (n, 3) K_T⁻¹ c, of one ampere in each phase.
+    """
+
+    def __init__(self, tubular: TubularSolution) -> None:
+        self.tubular = tubular
+        solution = tubular.solution
+        self._densities = np.column_stack([circuit.density for circuit in solution.problem.circuits])
+        self._pull = axial_force_gradient(solution, tubular.section.force_annulus)
+        found = self._solved(np.column_stack((self._pull, self._densities)))
+        self.response, self.phases = found[:, 0], found[:, 1:]
+
+    @cached_property
+    def linearisation(self) -> Linearisation:
+        return Linearisation(self.tubular.solution)
+
+    @property
+    def thrust_constants(self) -> Floats:
+        """(3,) N/A, as `TubularSolution.thrust_constants`."""
+        return np.asarray(self._densities.T @ self.response)
+
+    def force_constant(self) -> Functional:
+        """3/2 |K_αβ| (N/A) of the incremental thrust constants.
+
+        With x the phases' responses weighted by ∂/∂K_ph it is, to first order, xᵀ G ψ: of the force's gradient, of the
+        currents' load and, against both, of the tangent.
+        """
+        tubular, solution = self.tubular, self.tubular.solution
+        vector = space_vector(self.thrust_constants)
+        weights = np.real(np.conj(vector) / (abs(vector) or 1.0) * _CLARKE)
+        x = self.phases @ weights
+        derivative, by_psi = self.linearisation.tangent(x, self.response)
+        annulus = tubular.section.force_annulus
+        of_stress, at_radii = stress_derivative(solution, annulus, x)
+        s, z = on_lines(tubular.grid, of_stress - derivative.nodes[..., 0])
+        for radius, by_s in zip(annulus, at_radii, strict=True):
+            s[tubular.grid.column(radius)] += by_s
+        load = self._windows({name: weight * self.response for name, weight in zip(self._names, weights, strict=True)})
+        moved = on_lines(tubular.grid, load.nodes[..., 0])
+        rim = rim_derivative(tubular.grid, tubular.section.ends, x[:, None], self.response[:, None])
+        return Functional(
+            1.5 * abs(vector),
+            axial_force_gradient(solution, annulus, x) - by_psi,
+            s + moved[0] - rim.s[:, 0],
+            z + moved[1] - rim.z[:, 0],
+            windows=load.windows[..., 0],
+            turns=load.turns[:, 0],
+            reluctivity=-derivative.reluctivity[:, 0],
+            poles=-rim.poles[:, 0],
+        )
+
+    def force(self) -> Functional:
+        """The axial force on the mover (N)."""
+        tubular = self.tubular
+        annulus = tubular.section.force_annulus
+        nodes, at_radii = stress_derivative(tubular.solution, annulus, tubular.solution.psi / 2)
+        s, z = on_lines(tubular.grid, nodes)
+        for radius, by_s in zip(annulus, at_radii, strict=True):
+            s[tubular.grid.column(radius)] += by_s
+        return Functional(float(self._pull @ tubular.solution.psi / 2), self._pull, s, z)
+
+    def linkage(self, weights: Sequence[float]) -> Functional:
+        """A sum over the phases of weight · flux linkage (Wb)."""
+        solution, grid = self.tubular.solution, self.tubular.grid
+        scaled = [2 * np.pi * weight for weight in weights]
+        load = self._windows({name: weight * solution.psi for name, weight in zip(self._names, scaled, strict=True)})
+        s, z = on_lines(grid, load.nodes[..., 0])
+        by_psi = self._densities @ np.array(scaled)
+        return Functional(
+            float(by_psi @ solution.psi), by_psi, s, z, windows=load.windows[..., 0], turns=load.turns[:, 0]
+        )
+
+    def inductance(self) -> Functional:
+        """Synchronous inductance (H) of the balanced winding at the solution's state: mean of L less mean of M.
+
+        With Clarke's currents it is ½ · 2π Σ over α, β of cᵀ K_T⁻¹ c.
+        """
+        grid, solution = self.tubular.grid, self.tubular.solution
+        blank = np.zeros(solution.psi.size)
+        total = Functional(
+            0.0,
+            blank,
+            np.zeros(grid.r_nodes.size),
+            np.zeros(grid.z_nodes.size),
+            windows=np.zeros((len(self.tubular.section.coils), 4)),
+            turns=np.zeros(len(self.tubular.section.coils)),
+            reluctivity=np.zeros(len(solution.problem.materials)),
+            poles=np.zeros(2),
+        )
+        assert total.windows is not None
+        assert total.turns is not None
+        assert total.reluctivity is not None
+        assert total.poles is not None
+        scale = np.pi * 2 / 3
+        for currents in (np.real(_CLARKE), np.imag(_CLARKE)):
+            x = self.phases @ currents
+            derivative, by_psi = self.linearisation.tangent(x, x)
+            load = self._windows({name: 2 * i * x for name, i in zip(self._names, currents, strict=True)})
+            rim = rim_derivative(grid, self.tubular.section.ends, x[:, None], x[:, None])
+            s, z = on_lines(grid, load.nodes[..., 0] - derivative.nodes[..., 0])
+            total.value += scale * float((self._densities @ currents) @ x)
+            total.by_psi -= scale * by_psi
+            total.s += scale * (s - rim.s[:, 0])
+            total.z += scale * (z - rim.z[:, 0])
+            total.windows += scale * load.windows[..., 0]
+            total.turns += scale * load.turns[:, 0]
+            total.reluctivity -= scale * derivative.reluctivity[:, 0]
+            total.poles -= scale * rim.poles[:, 0]
+        return total
+
+    def gradients(self, functionals: Sequence[Functional]) -> tuple[Floats, Floats, Floats]:
+        """(numbers, k) derivatives of k figures by the section's `numbers`, (2, k) by their own limits in z, and
+        (3, k) by the currents."""
+        tubular, grid = self.tubular, self.tubular.grid
+        section, problem = tubular.section, tubular.solution.problem
+        adjoints = self._solved(np.column_stack([item.by_psi for item in functionals]))
+        residual = self.linearisation.residual(adjoints)
+        s, z = on_lines(grid, -residual.nodes)
+        psi = np.broadcast_to(tubular.solution.psi[:, None], adjoints.shape)
+        rim = rim_derivative(grid, section.ends, psi, adjoints)
+        s, z, poles = s - rim.s, z - rim.z, -rim.poles
+        windows = np.zeros((len(section.coils), 4, len(functionals)))
+        turns = np.zeros((len(section.coils), len(functionals)))
+        currents = np.array([circuit.current for circuit in problem.circuits])
+        if currents.any():
+            load = self._windows({name: i * adjoints for name, i in zip(self._names, currents, strict=True)})
+            moved = on_lines(grid, load.nodes)
+            s, z, windows, turns = s + moved[0], z + moved[1], windows + load.windows, turns + load.turns
+        reluctivity = -residual.reluctivity
+        for k, item in enumerate(functionals):
+            s[:, k] += item.s
+            z[:, k] += item.z
+            for total, part in ((windows, item.windows), (turns, item.turns), (reluctivity, item.reluctivity)):
+                if part is not None:
+                    total[..., k] += part
+            if item.poles is not None:
+                poles[:, k] += item.poles
+        by_r, by_z = breakpoint_derivative(grid, section, s, z)
+        remanence, recoil = self._magnets(reluctivity, -residual.coercivity)
+        flat = np.concatenate(
+            (by_r, by_z, windows.reshape(-1, len(functionals)), turns, remanence, recoil, poles), axis=0
+        )
+        return flat, np.column_stack([item.limits for item in functionals]), self._densities.T @ adjoints
+
+    def _magnets(self, reluctivity: Floats, coercivity: Floats) -> tuple[Floats, Floats]:
+        """(regions, k) by remanence and by recoil permeability: ν = ν0/μ_r and H_c = ν B_r."""
+        regions = self.tubular.section.regions
+        mu = np.array([region.recoil_permeability for region in regions])[:, None]
+        remanence = np.array([region.remanence for region in regions])[:, None]
+        nu = VACUUM_RELUCTIVITY / mu
+        return coercivity * nu, -(reluctivity + coercivity * remanence) * nu / mu
+
+    def _solved(self, right: Floats) -> Floats:
+        """(n, k) nodal adjoint fields of nodal right sides (n, k)."""
+        solution = self.tubular.solution
+        inner = solution.system.inner
+        found = np.zeros(right.shape)
+        found[inner] = solution.tangent.solve(right[inner])
+        return found
+
+    @property
+    def _names(self) -> list[str]:
+        return [circuit.name for circuit in self.tubular.solution.problem.circuits]
+
+    def _windows(self, fields: Mapping[str, Floats]) -> WindowDerivative:
+        """Of the circuits' densities times their nodal fields, (n,) or (n, k)."""
+        shaped = {name: field if field.ndim == 2 else field[:, None] for name, field in fields.items()}
+        return window_derivative(self.tubular.solution.problem.mesh, self.tubular.section.coils, shaped)
