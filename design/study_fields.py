@@ -8,6 +8,7 @@ from typing import Any
 from fluxbore.design.errors import SpecError, shown
 from fluxbore.design.keys import Key
 from fluxbore.design.performance import FIGURES
+from fluxbore.design.specification import suggestion
 from fluxbore.design.study import Objective
 
 
@@ -31,7 +32,8 @@ def allow(raw: object, where: str, allowed: Sequence[str]) -> None:
 def known_figure(name: object, where: str) -> str:
     """The name, if it is a figure's."""
     if not isinstance(name, str) or name not in FIGURES:
-        raise SpecError(f"{where} must name a figure, one of {', '.join(FIGURES)}; got {shown(name)}.")
+        hint = suggestion(name, FIGURES) if isinstance(name, str) else ""
+        raise SpecError(f"{where} must name a figure, such as force_constant or total_mass{hint}; got {shown(name)}.")
     return name
 
 

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -146,7 +147,7 @@ def test_finite_elements_are_the_default(answer):
 def test_tables_for_people(capsys):
     assert main(["evaluate", "spec.toml", "--fidelity", "network"]) == 0
     out = capsys.readouterr().out
-    assert "winding_resistance       5.5498 ohm" in out
+    assert re.search(r"^winding_resistance +5\.5498 ohm$", out, re.MULTILINE)
     assert "upper bound" in out
     assert "None" not in out
 
@@ -212,7 +213,8 @@ def test_a_search_leaves_a_design_that_evaluates_to_the_same_figures(answer):
     again, figures = answer("evaluate", "out/design.toml")
     assert again == 0
     for name, value in found["chosen"]["performance"].items():
-        assert figures["performance"][name] == pytest.approx(value, rel=1e-9), name
+        again_value = figures["performance"][name]
+        assert again_value == (None if value is None else pytest.approx(value, rel=1e-9)), name
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")

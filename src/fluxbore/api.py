@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryFile
 from time import monotonic
@@ -13,21 +13,22 @@ from typing import Literal
 from fluxbore.actuators import actuator_of
 from fluxbore.design import spec as spec_module
 from fluxbore.design.errors import FluxboreError, OutputError, SpecError
+from fluxbore.design.gradient_keys import gradient_keys
 from fluxbore.design.spec import Spec
 from fluxbore.design.spec_file import to_toml
-from fluxbore.design.study import Constraint
+from fluxbore.design_result import DesignResult, chosen_spec, judged, searched
 from fluxbore.optimize.evaluate import evaluate as evaluate_design
-from fluxbore.optimize.evaluation import OK, Evaluation, Fidelity
+from fluxbore.optimize.evaluation import Evaluation, Fidelity
 from fluxbore.optimize.evaluator import Evaluator
-from fluxbore.optimize.executor import Executor, local_executor
+from fluxbore.optimize.executor import TIME_LIMIT, Executor, local_executor
 from fluxbore.optimize.folder import Folder, open_folder
 from fluxbore.optimize.journal import Journal
-from fluxbore.optimize.outcome import Candidate, Check, SearchResult, SweepResult
-from fluxbore.optimize.problem import check, resolve_limits, show_limit
+from fluxbore.optimize.outcome import SearchResult, SweepResult
 from fluxbore.optimize.progress import Report as ProgressReport
 from fluxbore.optimize.search import check_study, one_at_a_time, run_search
 from fluxbore.optimize.sweep import recorded_sweeps, run_sweeps
 from fluxbore.optimize.table import FILE_NAME, results_table
+from fluxbore.report_file import write_report_file
 
 DESIGN_FILE = "design.toml"
 REPORT_FILE = "report.html"
@@ -37,42 +38,32 @@ Say = Callable[[str], None]
 """Receives a sentence about what could not be done; the command line prints it."""
 
 
-@dataclass(frozen=True, slots=True)
-class DesignResult:
-    """What `design` found and wrote.
-
-    spec, evaluation : the design to make, by finite elements; the start where the study found nothing feasible.
-    checks : the study's limits held against that design.
-    status : "ok", or in a few words why the result is not one to build: "no feasible design", "not converged", ...
-    reasons : the same in sentences. warnings : what could not be made, such as STEP files without libGL.
-    """
-
-    spec: Spec
-    evaluation: Evaluation
-    checks: tuple[Check, ...]
-    status: str
-    reasons: tuple[str, ...]
-    search: SearchResult | None = None
-    sweeps: tuple[SweepResult, ...] = ()
-    files: tuple[Path, ...] = ()
-    warnings: tuple[str, ...] = ()
-
-    @property
-    def ok(self) -> bool:
-        return self.status == OK
-
-
 def load(path: Path | str, overrides: Mapping[str, str] | None = None) -> Spec:
     """Read a specification file; ``overrides`` are dotted keys with texts, as ``--set`` takes them."""
     return spec_module.load(path, overrides)
 
 
-def evaluate(spec: Spec | Path | str, fidelity: Fidelity = "fem") -> Evaluation:
+def evaluate(
+    spec: Spec | Path | str, fidelity: Fidelity = "fem", *, gradient: bool | Sequence[str] = False
+) -> Evaluation:
     """The figures of the specification's own design, by "fem" or by "network".
 
-    Look at ``.ok`` first: a design that does not converge comes back without figures and with its reasons.
+    gradient : whether their derivatives are wanted too, by the study's continuous variables; or by which dotted keys.
+    They stand in ``.gradient``, figure -> key -> derivative in SI.
+
+    Look at ``.ok`` first: a design that does not converge comes back without figures and with its reasons. Raises
+    SpecError where there is nothing to take derivatives by, or no model that has them.
     """
-    return evaluate_design(_spec(spec), fidelity)
+    spec = _spec(spec)
+    if gradient is False:
+        return evaluate_design(spec, fidelity)
+    keys = gradient_keys(spec, None if gradient is True else gradient)
+    # As the study sees it: what the keys move is given, and what follows from them moves along.
+    found = evaluate_design(spec.for_study().pinned(keys), fidelity, keys)
+    if found.ok and found.gradient is None:
+        route = "finite elements" if fidelity == "fem" else "the network"
+        raise SpecError(f"gradient must be left out: an actuator of kind {spec.kind.name} has none by {route}.")
+    return found
 
 
 def sweep(
@@ -81,6 +72,7 @@ def sweep(
     *,
     fidelity: Fidelity = "fem",
     workers: int | None = None,
+    time_limit: float | None = None,
     force: bool = False,
     progress: ProgressReport | None = None,
 ) -> tuple[SweepResult, ...]:
@@ -91,7 +83,7 @@ def sweep(
     """
     spec = _spec(spec)
     _need(bool(spec.study.sweeps), "study.sweeps", "a sweep")
-    with _workshop(spec, folder, workers, force) as (place, journal, executor):
+    with _workshop(spec, folder, workers, time_limit, force) as (place, journal, executor):
         results = run_sweeps(spec, journal, executor, fidelity, progress)
         if place is not None:
             _write_sweeps(place, results_table(spec, results))
@@ -103,6 +95,7 @@ def optimize(
     folder: Path | str | None = None,
     *,
     workers: int | None = None,
+    time_limit: float | None = None,
     force: bool = False,
     progress: ProgressReport | None = None,
 ) -> SearchResult:
@@ -115,7 +108,7 @@ def optimize(
     _need(spec.study.objective is not None, "study.objective", "a search")
     _need(bool(spec.study.variables), "study.variables", "a search")
     check_study(spec)
-    with _workshop(spec, folder, workers, force) as (place, journal, executor):
+    with _workshop(spec, folder, workers, time_limit, force) as (place, journal, executor):
         result = run_search(spec, journal, executor, progress)
         if place is not None:
             earlier = recorded_sweeps(spec, journal, "fem") if journal is not None else ()
@@ -159,8 +152,8 @@ def report(
     if path.exists() and not force:
         raise OutputError(f"{path} must not exist yet; it does (see --force).")
     _check_writable(path.parent)
-    found = _judged(spec, evaluate_design(spec))
-    return replace(found, files=(_write_report(spec, found, path, None, picture, command, None),))
+    found = judged(spec, evaluate_design(spec))
+    return replace(found, files=(write_report_file(spec, found, path, None, picture, command, None),))
 
 
 def design(
@@ -168,6 +161,7 @@ def design(
     folder: Path | str,
     *,
     workers: int | None = None,
+    time_limit: float | None = None,
     force: bool = False,
     progress: ProgressReport | None = None,
     say: Say | None = None,
@@ -182,7 +176,7 @@ def design(
     begin = monotonic()
     spec = _spec(spec)
     check_study(spec)
-    with _workshop(spec, folder, workers, force) as (place, journal, executor):
+    with _workshop(spec, folder, workers, time_limit, force) as (place, journal, executor):
         assert place is not None
         sweeps = run_sweeps(spec, journal, executor, "fem", progress) if spec.study.sweeps else ()
         separate = None
@@ -190,10 +184,10 @@ def design(
             search = run_search(spec, journal, executor, progress)
             if search.ending == "interrupted":
                 raise KeyboardInterrupt
-            found = _searched(spec, search)
+            found = searched(spec, search)
             separate = one_at_a_time(spec, sweeps, journal, executor)
         else:
-            found = _judged(spec, _evaluated(spec, journal, executor))
+            found = judged(spec, _evaluated(spec, journal, executor))
         history = found.search.history if found.search is not None else ()
         files = [place.write(FILE_NAME, results_table(spec, sweeps, history))]
         if found.search is None or found.search.chosen is not None:
@@ -205,7 +199,7 @@ def design(
         found = replace(found, sweeps=tuple(sweeps))
         replayed = found.search is not None and found.search.replayed
         seconds = None if replayed else monotonic() - begin
-        files.append(_write_report(spec, found, place.path / REPORT_FILE, separate, picture, command, seconds))
+        files.append(write_report_file(spec, found, place.path / REPORT_FILE, separate, picture, command, seconds))
         if say is not None:
             for warning in found.warnings:
                 say(warning)
@@ -220,44 +214,6 @@ def _check_writable(folder: Path) -> None:
             pass
     except OSError as error:
         raise OutputError(f"{folder} cannot be written: {error.strerror or error}.") from error
-
-
-def _searched(spec: Spec, search: SearchResult) -> DesignResult:
-    """The search's outcome: its chosen design, else the start with the reason."""
-    chosen = search.chosen
-    if chosen is None:
-        reasons = (search.stop_reason, *search.start.evaluation.reasons)
-        return DesignResult(spec, search.start.evaluation, search.start.checks, "no feasible design", reasons, search)
-    status, reasons = (OK, ()) if search.ending == "done" else (search.ending, (search.stop_reason,))
-    final = chosen_spec(spec, chosen, search)
-    return DesignResult(final, chosen.evaluation, chosen.checks, status, reasons, search)
-
-
-def _judged(spec: Spec, evaluation: Evaluation) -> DesignResult:
-    """A design that was evaluated as it is, held against the study's limits."""
-    if not evaluation.ok:
-        return DesignResult(spec, evaluation, (), evaluation.status, evaluation.reasons)
-    checks = check(resolve_limits(spec, evaluation), spec.values, evaluation.performance, evaluation.fidelity)
-    missed = tuple(
-        f"{item.limit.subject} {item.limit.sense} {show_limit(spec, item.limit)} is not met."
-        for item in checks
-        if not item.satisfied
-    )
-    return DesignResult(spec, evaluation, checks, "limits not met" if missed else OK, missed)
-
-
-def chosen_spec(spec: Spec, chosen: Candidate, search: SearchResult) -> Spec:
-    """The chosen design as a specification of its own; limits relative to the start become numbers."""
-    final = spec.for_study().with_values(chosen.values)
-    constraints = tuple(
-        Constraint(
-            check.limit.subject,
-            check.limit.limit if check.limit.sense == "<=" else None,
-            check.limit.limit if check.limit.sense == ">=" else None,
-        )
-        for check in search.start.checks
-    )
-    return replace(final, study=replace(final.study, constraints=constraints))
 
 
 def design_text(spec: Spec) -> str:
@@ -307,53 +263,10 @@ def _evaluated(spec: Spec, journal: Journal | None, executor: Executor) -> Evalu
 
 @contextmanager
 def _workshop(
-    spec: Spec, folder: Path | str | None, workers: int | None, force: bool
+    spec: Spec, folder: Path | str | None, workers: int | None, time_limit: float | None, force: bool
 ) -> Iterator[tuple[Folder | None, Journal | None, Executor]]:
     """Folder, journal and workers of one run."""
     with ExitStack() as stack:
-        executor = stack.enter_context(local_executor(workers))
+        executor = stack.enter_context(local_executor(workers, time_limit=time_limit or TIME_LIMIT))
         place = stack.enter_context(open_folder(folder, spec, force)) if folder is not None else None
         yield place, place.journal if place is not None else None, executor
-
-
-def _write_report(
-    spec: Spec,
-    findings: DesignResult,
-    path: Path,
-    separate: Candidate | None,
-    picture: bool,
-    command: Sequence[str] | None,
-    seconds: float | None,
-) -> Path:
-    from fluxbore import report_content as gather
-    from fluxbore.reports.content import Picture, ReportContent
-    from fluxbore.reports.page import write_report
-
-    final = findings.spec
-    studied = findings.search is not None and findings.search.chosen is not None
-    views = actuator_of(final)
-    parts = views.assembly(final)
-    start = findings.search.start.evaluation if findings.search is not None else findings.evaluation
-    content = ReportContent(
-        spec=spec,
-        chosen_spec=final if studied else None,
-        start=start,
-        chosen=findings.evaluation if studied else None,
-        start_network=evaluate_design(spec, "network"),
-        chosen_network=evaluate_design(final, "network") if studied else None,
-        search=findings.search,
-        sweeps=findings.sweeps,
-        one_at_a_time=separate,
-        checks=findings.checks,
-        flux_map=views.flux_map(final) if views.flux_map is not None and findings.evaluation.ok else None,
-        start_flux_map=views.flux_map(spec) if views.flux_map is not None and studied and start.ok else None,
-        slots=views.slots(final) if views.slots is not None else None,
-        parts=gather.part_rows(final, parts),
-        assembly=parts,
-        picture=gather.picture(parts) if picture else Picture(None, "No picture was asked for."),
-        checked=gather.checked(parts),
-        not_checked=(*gather.NOT_CHECKED, *findings.warnings),
-        provenance=gather.provenance(spec, findings.evaluation, command),
-        seconds=seconds,
-    )
-    return write_report(content, path)

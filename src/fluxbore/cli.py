@@ -1,8 +1,6 @@
 """The command line: the only place that prints.
 
-Exit status: 0 done; 1 a fault of the program; 2 the input is wrong, one sentence on stderr and nothing on stdout; 3 it
-ran and the result is not valid (no feasible design, no convergence); 130 interrupted. Results go to stdout,
-everything else to stderr.
+Results go to stdout, everything else to stderr; see `fluxbore.exit_status` for how it ends.
 """
 
 from __future__ import annotations
@@ -12,16 +10,12 @@ import os
 import sys
 from collections.abc import Callable, Sequence
 from io import TextIOWrapper
-from pathlib import Path
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import Any, NoReturn
 
-from fluxbore import __version__, solve_command
-from fluxbore.design.errors import FluxboreError, one_line, shown
-
-if TYPE_CHECKING:
-    from fluxbore.design.spec import Spec
-
-DONE, PROGRAM_FAULT, INPUT_WRONG, NOT_VALID, INTERRUPTED = 0, 1, 2, 3, 130
+from fluxbore import __version__, solve_command, study_command
+from fluxbore.design.errors import FluxboreError, one_line
+from fluxbore.exit_status import DONE, INPUT_WRONG, INTERRUPTED, NOT_VALID, PROGRAM_FAULT
+from fluxbore.spec_options import count, path_name, read_spec, with_spec
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -93,88 +87,22 @@ def _parser() -> argparse.ArgumentParser:
     add("schema", _schema, "print the JSON Schema of specifications, for editors")
     add("doctor", _doctor, "say what this machine lacks and how to get it").add_argument("--json", action="store_true")
 
-    check = _with_spec(add("check", _check, "read a specification and say what it amounts to"))
+    check = with_spec(add("check", _check, "read a specification and say what it amounts to"))
     check.add_argument("--json", action="store_true", help="print JSON")
 
-    evaluate = _with_spec(add("evaluate", _evaluate, "compute the figures of the specification's own design"))
-    evaluate.add_argument("--fidelity", choices=("network", "fem"), default="fem", help="default: fem")
-    evaluate.add_argument("--json", action="store_true", help="print JSON")
+    def answering(run: study_command.Run) -> Callable[[argparse.Namespace], int]:
+        return lambda options: _answer(run(options))
 
-    sweep = _with_run(add("sweep", _sweep, "compute the study's grids of designs"), folder_needed=False)
-    sweep.add_argument("--fidelity", choices=("network", "fem"), default="fem", help="default: fem")
-    _with_run(add("optimize", _optimize, "search for the study's best design"), folder_needed=False)
+    study_command.add_to(lambda name, run, text: add(name, answering(run), text))
 
-    export = _with_spec(add("export", _export, "write the design as STEP files or as a FEMM model"))
-    export.add_argument("-o", "--output", metavar="DIR", type=_path, required=True, help="folder for the files")
+    export = with_spec(add("export", _export, "write the design as STEP files or as a FEMM model"))
+    export.add_argument("-o", "--output", metavar="DIR", type=path_name, required=True, help="folder for the files")
     export.add_argument("--format", choices=("step", "fem"), default="step", help="default: step")
     export.add_argument("--force", action="store_true", help="take a folder that holds other files")
     export.add_argument("--json", action="store_true", help="print JSON")
 
-    report = _with_spec(add("report", _report, "write the report of the specification's own design"))
-    report.add_argument(
-        "-o", "--output", metavar="FILE", type=_path, required=True, help="the HTML file, or a folder for it"
-    )
-    report.add_argument("--no-picture", action="store_true", help="do without the rendered picture")
-    report.add_argument("--force", action="store_true", help="replace the file where it exists")
-    report.add_argument("--json", action="store_true", help="print JSON")
-
-    solve_command.add_to(add("solve", _solve, "solve a FEMM magnetics file (.fem)"), _path, _positive)
-
-    design = _with_run(add("design", _design, "sweeps, search, STEP files and report in one"), folder_needed=True)
-    design.add_argument("--no-picture", action="store_true", help="do without the rendered picture")
+    solve_command.add_to(add("solve", _solve, "solve a FEMM magnetics file (.fem)"), path_name, count)
     return parser
-
-
-def _with_spec(parser: argparse.ArgumentParser) -> argparse.ArgumentParser:
-    parser.add_argument("spec", metavar="SPEC", type=_path, help="specification file (TOML)")
-    parser.add_argument(
-        "--set",
-        metavar="KEY=VALUE",
-        action="append",
-        default=[],
-        help='another value at a dotted key, such as --set actuator.mover.ring_width="2 mm"; nothing after = drops it',
-    )
-    return parser
-
-
-def _with_run(parser: argparse.ArgumentParser, *, folder_needed: bool) -> argparse.ArgumentParser:
-    _with_spec(parser)
-    parser.add_argument(
-        "-o",
-        "--output",
-        metavar="DIR",
-        type=_path,
-        required=folder_needed,
-        help="folder for the results; a run goes on in it",
-    )
-    parser.add_argument("--workers", type=_positive, metavar="N", help="processes; default: one a core")
-    parser.add_argument("--force", action="store_true", help="replace the results of another specification in DIR")
-    parser.add_argument("--json", action="store_true", help="print JSON")
-    parser.add_argument("--quiet", action="store_true", help="no progress on stderr")
-    return parser
-
-
-def _positive(text: str) -> int:
-    if not text.isascii() or not text.isdigit() or not 1 <= int(text) <= 1024:
-        raise argparse.ArgumentTypeError(f"must be a whole number from 1 to 1024; got {shown(text)}")
-    return int(text)
-
-
-def _path(text: str) -> str:
-    """Refuses the empty name, which a script's unset variable makes and Python takes for the working folder."""
-    if not text or "\0" in text:
-        raise argparse.ArgumentTypeError(f"must name a file or folder; got {shown(text)}")
-    return text
-
-
-def _load(options: argparse.Namespace) -> Spec:
-    from fluxbore.actuators import actuator_of
-    from fluxbore.design.spec import load
-
-    spec = load(options.spec, solve_command.assignments(options.set, 'actuator.mover.ring_width="2 mm"'))
-    # Parts that overlap in the drawing alone are wrong input too; a study's designs are judged one by one instead.
-    actuator_of(spec).assembly(spec)
-    return spec
 
 
 def _new(options: argparse.Namespace) -> int:
@@ -207,7 +135,7 @@ def _doctor(options: argparse.Namespace) -> int:
 def _check(options: argparse.Namespace) -> int:
     from fluxbore.messages import spec_plain, spec_text
 
-    spec = _load(options)
+    spec = read_spec(options)
     if options.json:
         _print_json(spec_plain(spec))
     else:
@@ -215,82 +143,16 @@ def _check(options: argparse.Namespace) -> int:
     return DONE
 
 
-def _evaluate(options: argparse.Namespace) -> int:
-    from fluxbore.messages import evaluation_text
-    from fluxbore.optimize.evaluate import evaluate
-    from fluxbore.optimize.evaluation import to_plain
-
-    spec = _load(options)
-    evaluation = evaluate(spec, options.fidelity)
-    if options.json:
-        _print_json({"name": spec.word("actuator.name"), "specification": spec.fingerprint(), **to_plain(evaluation)})
-    else:
-        print(evaluation_text(evaluation))
-    return DONE if evaluation.ok else NOT_VALID
-
-
-def _sweep(options: argparse.Namespace) -> int:
-    from fluxbore.api import sweep
-    from fluxbore.messages import Bar, sweeps_plain, sweeps_text
-
-    spec = _load(options)
-    with Bar(options.quiet) as bar:
-        results = sweep(
-            spec,
-            options.output,
-            fidelity=options.fidelity,
-            workers=options.workers,
-            force=options.force,
-            progress=bar.show,
-        )
-    if options.json:
-        _print_json(sweeps_plain(spec, results))
-    else:
-        print(sweeps_text(spec, results))
-    return DONE if any(row.evaluation.ok for result in results for row in result.rows) else NOT_VALID
-
-
-def _optimize(options: argparse.Namespace) -> int:
-    from fluxbore.api import optimize
-    from fluxbore.messages import Bar, search_plain, search_text
-
-    spec = _load(options)
-    with Bar(options.quiet) as bar:
-        result = optimize(spec, options.output, workers=options.workers, force=options.force, progress=bar.show)
-    if options.json:
-        _print_json(search_plain(result))
-    else:
-        print(search_text(spec, result))
-    if result.ending == "interrupted":
-        return INTERRUPTED
-    return DONE if result.chosen is not None and result.ending == "done" else NOT_VALID
-
-
 def _export(options: argparse.Namespace) -> int:
     from fluxbore.api import export
 
-    found = export(_load(options), options.output, force=options.force, form=options.format)
+    found = export(read_spec(options), options.output, force=options.force, form=options.format)
     files = [str(path) for path in found]
     if options.json:
         _print_json({"status": "ok", "reasons": [], "files": files})
     else:
         print("\n".join(files))
     return DONE
-
-
-def _report(options: argparse.Namespace) -> int:
-    from fluxbore.api import REPORT_FILE, report
-    from fluxbore.messages import design_plain
-
-    spec = _load(options)
-    target = Path(options.output)
-    target = target if target.suffix.lower() in (".html", ".htm") else target / REPORT_FILE
-    found = report(spec, target, force=options.force, picture=not options.no_picture, command=options.arguments)
-    if options.json:
-        _print_json(design_plain(found))
-    else:
-        print("\n".join([*found.reasons, *(str(path) for path in found.files)]))
-    return DONE if found.ok else NOT_VALID
 
 
 def _solve(options: argparse.Namespace) -> int:
@@ -302,27 +164,12 @@ def _solve(options: argparse.Namespace) -> int:
     return DONE if valid else NOT_VALID
 
 
-def _design(options: argparse.Namespace) -> int:
-    from fluxbore.api import design
-    from fluxbore.messages import Bar, design_plain, design_text
-
-    spec = _load(options)
-    with Bar(options.quiet) as bar:
-        result = design(
-            spec,
-            options.output,
-            workers=options.workers,
-            force=options.force,
-            progress=bar.show,
-            say=bar.say,
-            picture=not options.no_picture,
-            command=options.arguments,
-        )
-    if options.json:
-        _print_json(design_plain(result))
+def _answer(answer: study_command.Answer) -> int:
+    if isinstance(answer.content, str):
+        print(answer.content)
     else:
-        print(design_text(spec, result))
-    return DONE if result.ok else NOT_VALID
+        _print_json(answer.content)
+    return answer.status
 
 
 def _print_json(value: Any) -> None:

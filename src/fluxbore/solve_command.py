@@ -171,8 +171,8 @@ def _check_file(option: str, suffix: str, path: Path, model: Path) -> None:
 
 def _sweep(options: argparse.Namespace) -> tuple[bool, dict[str, Any] | str]:
     from fluxbore.fem.femm_reader import read_model
-    from fluxbore.messages import Bar
     from fluxbore.model_sweep import ModelSweep, run_sweep
+    from fluxbore.progress_bar import Bar
 
     sweep = ModelSweep.of(
         read_model(options.model),

@@ -1,0 +1,55 @@
+"""Gathers a report's content and writes the file."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from fluxbore.actuators import actuator_of
+from fluxbore.design.spec import Spec
+from fluxbore.design_result import DesignResult
+from fluxbore.optimize.evaluate import evaluate as evaluate_design
+from fluxbore.optimize.outcome import Candidate
+
+
+def write_report_file(
+    spec: Spec,
+    findings: DesignResult,
+    path: Path,
+    separate: Candidate | None,
+    picture: bool,
+    command: Sequence[str] | None,
+    seconds: float | None,
+) -> Path:
+    from fluxbore import report_content as gather
+    from fluxbore.reports.content import Picture, ReportContent
+    from fluxbore.reports.page import write_report
+
+    final = findings.spec
+    studied = findings.search is not None and findings.search.chosen is not None
+    views = actuator_of(final)
+    parts = views.assembly(final)
+    start = findings.search.start.evaluation if findings.search is not None else findings.evaluation
+    content = ReportContent(
+        spec=spec,
+        chosen_spec=final if studied else None,
+        start=start,
+        chosen=findings.evaluation if studied else None,
+        start_network=evaluate_design(spec, "network"),
+        chosen_network=evaluate_design(final, "network") if studied else None,
+        search=findings.search,
+        sweeps=findings.sweeps,
+        one_at_a_time=separate,
+        checks=findings.checks,
+        flux_map=views.flux_map(final) if views.flux_map is not None and findings.evaluation.ok else None,
+        start_flux_map=views.flux_map(spec) if views.flux_map is not None and studied and start.ok else None,
+        slots=views.slots(final) if views.slots is not None else None,
+        parts=gather.part_rows(final, parts),
+        assembly=parts,
+        picture=gather.picture(parts) if picture else Picture(None, "No picture was asked for."),
+        checked=gather.checked(parts),
+        not_checked=(*gather.NOT_CHECKED, *findings.warnings),
+        provenance=gather.provenance(spec, findings.evaluation, command),
+        seconds=seconds,
+    )
+    return write_report(content, path)

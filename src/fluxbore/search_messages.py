@@ -1,0 +1,97 @@
+"""What the command line says of a search: plain values for ``--json``, and start and result side by side."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+from fluxbore.design.performance import show_figure
+from fluxbore.design.spec import Spec
+from fluxbore.optimize.evaluation import to_plain
+from fluxbore.optimize.outcome import Candidate, Check, SearchResult
+from fluxbore.value_text import show_key, show_subject
+
+
+def candidate_plain(candidate: Candidate | None) -> dict[str, Any] | None:
+    """A design of a study."""
+    if candidate is None:
+        return None
+    evaluation = to_plain(candidate.evaluation)
+    return {
+        "values": dict(candidate.values),
+        "objective": candidate.objective,
+        "feasible": candidate.feasible,
+        "fidelity": candidate.evaluation.fidelity,
+        "status": candidate.evaluation.status,
+        "reasons": evaluation["reasons"],
+        "performance": evaluation["performance"],
+        "constraints": [
+            {
+                "subject": check.limit.subject,
+                "sense": check.limit.sense,
+                "limit": check.limit.limit,
+                "value": check.value,
+                "margin": check.margin,
+                "satisfied": check.satisfied,
+                "active": check.active,
+            }
+            for check in candidate.checks
+        ],
+    }
+
+
+def search_plain(result: SearchResult) -> dict[str, Any]:
+    """The search: how it ended, start, best, chosen and history."""
+    chosen = result.chosen
+    return {
+        "status": "no feasible design" if chosen is None else "ok" if result.ending == "done" else result.ending,
+        "reasons": [] if chosen is not None and result.ending == "done" else [result.stop_reason],
+        "stop_reason": result.stop_reason,
+        "evaluations": len(result.history),
+        "start": candidate_plain(result.start),
+        "network_start": candidate_plain(result.network_start),
+        "best": candidate_plain(result.best),
+        "chosen": candidate_plain(chosen),
+        "history": [
+            {"values": dict(step.values), "objective": step.objective, "feasible": step.feasible}
+            for step in result.history
+        ],
+    }
+
+
+def _limit(check: Check) -> str:
+    return f"{check.limit.subject} {check.limit.sense} {show_subject(check.limit.subject, check.limit.limit)}"
+
+
+def _failures(result: SearchResult) -> list[str]:
+    """The commonest reasons of failed designs with their counts; sentences that differ by numbers alone are one."""
+    alike: dict[str, list[str]] = {}
+    for step in result.history:
+        if not step.evaluation.ok:
+            reason = " ".join(step.evaluation.reasons)
+            alike.setdefault(re.sub(r"[\d.]+", "#", reason), []).append(reason)
+    common = sorted(alike.values(), key=len, reverse=True)[:3]
+    return [f"{len(reasons)} of them failed, such as: {reasons[0]}" for reasons in common]
+
+
+def search_text(spec: Spec, result: SearchResult) -> str:
+    """Start and chosen design side by side, and why the search ended."""
+    cost = f"{result.reused} of them from the journal" if result.replayed else f"in {result.seconds:.0f} s"
+    lines = [result.stop_reason, f"Search: {len(result.history)} designs by finite elements, {cost}."]
+    lines += _failures(result)
+    chosen = result.chosen
+    if chosen is None:
+        return "\n".join([*lines, "No feasible design was found."])
+    if dict(chosen.values) == dict(result.start.values):
+        lines.append("Nothing better than the start was found.")
+    lines.append("")
+    for key, value in chosen.values.items():
+        lines.append(f"{key}: {show_key(spec, key, result.start.values[key])} -> {show_key(spec, key, value)}")
+    for name in ("force_constant", "motor_constant", "stray_field", "yoke_flux_density", "moving_mass", "total_mass"):
+        before, after = (getattr(item.evaluation.performance, name) for item in (result.start, chosen))
+        lines.append(f"{name}: {show_figure(name, before)} -> {show_figure(name, after)}")
+    for check in chosen.checks:
+        state = "active" if check.active else "held"
+        found = show_subject(check.limit.subject, check.value) if check.value is not None else "no value"
+        lines.append(f"{_limit(check)}: {found}, {state}")
+    return "\n".join(lines)

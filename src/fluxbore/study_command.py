@@ -1,0 +1,126 @@
+"""The commands that compute designs: their options, what they ask of the Python interface, and what they answer."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Protocol
+
+from fluxbore.exit_status import DONE, INTERRUPTED, NOT_VALID
+from fluxbore.spec_options import path_name, read_spec, with_fidelity, with_run, with_spec
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """A command's exit status, and what it prints: an object as JSON, or a text."""
+
+    status: int
+    content: dict[str, Any] | str
+
+
+Run = Callable[[argparse.Namespace], Answer]
+
+
+class Add(Protocol):
+    """Makes the parser of a command: its name, what it runs, and what it is for."""
+
+    def __call__(self, name: str, run: Run, text: str) -> argparse.ArgumentParser: ...
+
+
+def add_to(add: Add) -> None:
+    """Make the parsers of these commands."""
+    evaluate = with_fidelity(with_spec(add("evaluate", _evaluate, "compute the figures of the specification's design")))
+    evaluate.add_argument(
+        "--gradient", action="store_true", help="their derivatives too, by the study's continuous variables"
+    )
+    evaluate.add_argument("--json", action="store_true", help="print JSON")
+
+    with_fidelity(with_run(add("sweep", _sweep, "compute the study's grids of designs"), folder_needed=False))
+    with_run(add("optimize", _optimize, "search for the study's best design"), folder_needed=False)
+
+    report = with_spec(add("report", _report, "write the report of the specification's own design"))
+    report.add_argument(
+        "-o", "--output", metavar="FILE", type=path_name, required=True, help="the HTML file, or a folder for it"
+    )
+    report.add_argument("--no-picture", action="store_true", help="do without the rendered picture")
+    report.add_argument("--force", action="store_true", help="replace the file where it exists")
+    report.add_argument("--json", action="store_true", help="print JSON")
+
+    design = with_run(add("design", _design, "sweeps, search, STEP files and report in one"), folder_needed=True)
+    design.add_argument("--no-picture", action="store_true", help="do without the rendered picture")
+
+
+def _evaluate(options: argparse.Namespace) -> Answer:
+    from fluxbore.api import evaluate
+    from fluxbore.gradient_messages import gradient_text
+    from fluxbore.messages import evaluation_plain, evaluation_text
+
+    spec = read_spec(options)
+    evaluation = evaluate(spec, options.fidelity, gradient=options.gradient)
+    status = DONE if evaluation.ok else NOT_VALID
+    if options.json:
+        return Answer(status, evaluation_plain(spec, evaluation))
+    slopes = ["", gradient_text(spec, evaluation)] if evaluation.gradient is not None else []
+    return Answer(status, "\n".join([evaluation_text(evaluation), *slopes]))
+
+
+def _sweep(options: argparse.Namespace) -> Answer:
+    from fluxbore.api import sweep
+    from fluxbore.messages import sweeps_plain, sweeps_text
+    from fluxbore.progress_bar import Bar
+
+    spec = read_spec(options)
+    with Bar(options.quiet) as bar:
+        results = sweep(spec, options.output, fidelity=options.fidelity, progress=bar.show, **_run_options(options))
+    status = DONE if any(row.evaluation.ok for result in results for row in result.rows) else NOT_VALID
+    return Answer(status, sweeps_plain(spec, results) if options.json else sweeps_text(spec, results))
+
+
+def _optimize(options: argparse.Namespace) -> Answer:
+    from fluxbore.api import optimize
+    from fluxbore.progress_bar import Bar
+    from fluxbore.search_messages import search_plain, search_text
+
+    spec = read_spec(options)
+    with Bar(options.quiet) as bar:
+        result = optimize(spec, options.output, progress=bar.show, **_run_options(options))
+    done = DONE if result.chosen is not None and result.ending == "done" else NOT_VALID
+    status = INTERRUPTED if result.ending == "interrupted" else done
+    return Answer(status, search_plain(result) if options.json else search_text(spec, result))
+
+
+def _report(options: argparse.Namespace) -> Answer:
+    from fluxbore.api import REPORT_FILE, report
+    from fluxbore.messages import design_plain
+
+    spec = read_spec(options)
+    target = Path(options.output)
+    target = target if target.suffix.lower() in (".html", ".htm") else target / REPORT_FILE
+    found = report(spec, target, force=options.force, picture=not options.no_picture, command=options.arguments)
+    text = "\n".join([*found.reasons, *(str(path) for path in found.files)])
+    return Answer(DONE if found.ok else NOT_VALID, design_plain(found) if options.json else text)
+
+
+def _design(options: argparse.Namespace) -> Answer:
+    from fluxbore.api import design
+    from fluxbore.messages import design_plain, design_text
+    from fluxbore.progress_bar import Bar
+
+    spec = read_spec(options)
+    with Bar(options.quiet) as bar:
+        result = design(
+            spec,
+            options.output,
+            progress=bar.show,
+            say=bar.say,
+            picture=not options.no_picture,
+            command=options.arguments,
+            **_run_options(options),
+        )
+    return Answer(DONE if result.ok else NOT_VALID, design_plain(result) if options.json else design_text(spec, result))
+
+
+def _run_options(options: argparse.Namespace) -> dict[str, Any]:
+    return {"workers": options.workers, "time_limit": options.time_limit, "force": options.force}
