@@ -164,6 +164,24 @@ class Performance:
     magnet_wall: float | None = _figure("length", "radial wall of the magnets: (D_m - D_s)/2")
     outer_diameter: float | None = _figure("length", "of the whole actuator")
     length: float | None = _figure("length", "of the stator over its end caps")
+    # Coils in free space.
+    stored_energy: float | None = _figure("energy", "of the magnetic field of all coils")
+    central_flux_density: float | None = _figure("flux density", "on the axis at z = 0")
+    stray_flux_density: float | None = _figure(
+        "flux density", "root of the mean square over the points of the two lines on which the stray field is read"
+    )
+    winding_flux_density: float | None = _figure("flux density", "largest on the skin of any winding")
+    quench_load: float | None = _figure(
+        "count",
+        "largest |J|/J_c + B/B_c of any winding, J_c and B_c being the superconductor's limits without field and "
+        "without current; above one it quenches",
+    )
+    joule_loss: float | None = _figure("power", "of the current densities in the windings' conductor")
+    merit: float | None = _figure(
+        "count",
+        "(stray flux density / its norm)^2 + |stored energy - its reference| / its reference, the objective of the "
+        "TEAM workshop's problem 22",
+    )
 
 
 @dataclass(frozen=True, slots=True)

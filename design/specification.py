@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
-from fluxbore.design import hybrid_keys, hybrid_values
+from fluxbore.design import coils_keys, coils_values, hybrid_keys, hybrid_values
 from fluxbore.design.errors import SpecError
 from fluxbore.design.keys import Alternatives, Key, Value, Values
 from fluxbore.design.materials import Material
@@ -58,6 +58,15 @@ KINDS: dict[str, Kind] = {
         hybrid_keys.HYBRID_MATERIALS,
         hybrid_keys.HYBRID_NON_MAGNETIC,
         hybrid_values.check_window,
+    ),
+    "coils": Kind(
+        "coils",
+        coils_keys.COILS_KEYS,
+        coils_keys.COILS_ALTERNATIVES,
+        coils_values.resolve,
+        coils_values.from_values,
+        coils_keys.COILS_MATERIALS,
+        check=coils_values.check,
     ),
 }
 """Every kind of actuator a specification can describe."""
