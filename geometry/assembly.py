@@ -10,6 +10,7 @@ import itertools
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -138,6 +139,7 @@ def _turned(profile: Profile) -> tuple[float, float]:
     return math.pi * whole, math.pi * along
 
 
+@lru_cache(maxsize=256)
 def _drilled(profile: Profile, hole: Hole) -> tuple[float, float, float]:
     """What a hole takes away: ∫ dV, ∫ x dV along the hole's axis and ∫ z dV (m^3, m^4, m^4).
 
@@ -150,11 +152,13 @@ def _drilled(profile: Profile, hole: Hole) -> tuple[float, float, float]:
     stations = sorted({-math.pi / 2, 0.0, math.pi / 2, *inside})
     whole = radial = axial = 0.0
     for low, high in itertools.pairwise(stations):
+        # No vertex lies between two stations, so that the same edges are crossed all the way.
+        crossed = _crossed(profile, hole.z + radius * math.sin((low + high) / 2))
         for node, weight in zip(_NODES, _WEIGHTS, strict=True):
             angle = (low + high) / 2 + node * (high - low) / 2
             half, z = radius * math.cos(angle), hole.z + radius * math.sin(angle)
             step = weight * (high - low) / 2 * half  # dz = radius cos(angle) d(angle)
-            for count, edge in enumerate(_crossed(profile, z)):
+            for count, edge in enumerate(crossed):
                 sign = 1 if count % 2 else -1
                 chord, moment = _chord(_at(edge, z), half, hole.bottom)
                 whole += sign * step * chord
@@ -241,10 +245,13 @@ def clearance(first: Part, second: Part) -> float:
     return 0.0 if gap < RESOLUTION else gap
 
 
+@lru_cache(maxsize=1024)  # designs of a search share most of their parts
 def is_simple(profile: Profile) -> bool:
     """Whether the polygon is counter-clockwise, on the right of the axis, and neither crosses nor touches itself."""
     if len(profile) < 3 or not all(math.isfinite(r) and math.isfinite(z) and r >= 0 for r, z in profile):
         return False
+    if _is_rectangle(profile):  # most parts are rings, and there are dozens of them in each design of a search
+        return True
     edges = list(_edges(profile))
     if any(math.dist(a, b) < RESOLUTION for a, b in edges) or _turned(profile)[0] <= 0:
         return False
@@ -255,6 +262,14 @@ def is_simple(profile: Profile) -> bool:
         if _crossing(edges[i], edges[j]) is not None or any(_distance(*pair) < RESOLUTION for pair in pairs):
             return False
     return True
+
+
+def _is_rectangle(profile: Profile) -> bool:
+    """Whether the polygon is one that `rectangle` makes, with sides of a length."""
+    if len(profile) != 4:
+        return False
+    (r0, z0), (r1, z1) = profile[0], profile[2]
+    return profile == rectangle(r0, r1, z0, z1) and r1 - r0 >= RESOLUTION and z1 - z0 >= RESOLUTION
 
 
 def _crossing(a: Edge, b: Edge) -> float | None:
