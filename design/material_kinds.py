@@ -17,6 +17,7 @@ class Material:
     """What all materials share. ``None`` stands for a datum that is not known, never for zero.
 
     density : kg/m^3.   young_modulus, yield_stress : Pa.   poisson_ratio : plain number.
+    thermal_conductivity : W/(m K).   resistivity : ohm m at 20 degC; None of an insulator too.
     curve : the B-H curve of a soft iron, None of all others.
     """
 
@@ -26,6 +27,8 @@ class Material:
     young_modulus: float | None = None
     poisson_ratio: float | None = None
     yield_stress: float | None = None
+    thermal_conductivity: float | None = None
+    resistivity: float | None = None
     curve: BHCurve | None = None
 
     @property
@@ -36,9 +39,14 @@ class Material:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SoftIron(Material):
-    """A material with a B-H curve; hysteresis is left out."""
+    """A material with a B-H curve, which leaves hysteresis out; its loss is Steinmetz's k_h f B^n in each volume.
+
+    hysteresis_coefficient : k_h (J/m^3), of one cycle at 1 T; None where it is not known.   hysteresis_exponent : n.
+    """
 
     curve: BHCurve
+    hysteresis_coefficient: float | None = None
+    hysteresis_exponent: float = 1.6
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -119,9 +127,7 @@ class Conductor(Material):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Structural(Material):
-    """A non-magnetic material. resistivity : ohm m at 20 degC, or None where it is not known or an insulator's."""
-
-    resistivity: float | None = None
+    """A non-magnetic material."""
 
 
 def describe(kind: type[Material]) -> str:

@@ -20,10 +20,21 @@ _SHARED = (
     Key("young_modulus", "Young's modulus.", dimension="stress", above=0.0, optional=True),
     Key("poisson_ratio", "Poisson's ratio.", kind="number", above=-1.0, maximum=0.5, optional=True),
     Key("yield_stress", "Yield stress.", dimension="stress", above=0.0, optional=True),
+    Key("thermal_conductivity", "At 20 degC.", dimension="thermal conductivity", above=0.0, optional=True),
 )
 
 _OWN: dict[str, tuple[Key, ...]] = {
-    "soft iron": (),
+    "soft iron": (
+        Key("resistivity", "At 20 degC.", dimension="resistivity", above=0.0, optional=True),
+        Key(
+            "hysteresis_coefficient",
+            "Loss of one cycle at 1 T, k_h of k_h f B^n.",
+            dimension="energy density",
+            minimum=0.0,
+            optional=True,
+        ),
+        Key("hysteresis_exponent", "n of k_h f B^n.", kind="number", minimum=1.0, maximum=4.0, default=1.6),
+    ),
     "magnet": (
         Key("remanence", "B_r at 20 degC.", dimension="flux density", above=0.0),
         Key("remanence_coefficient", "Relative change of B_r.", dimension="temperature coefficient", default=0.0),
