@@ -1,0 +1,221 @@
+"""The search for one point of a front, over the archive that all its points share."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+from fluxbore.optimize import gradient_search, nlopt_loop
+from fluxbore.optimize.archive import Archive
+from fluxbore.optimize.gradient_search import View
+from fluxbore.optimize.nlopt_loop import Ending
+from fluxbore.optimize.outcome import Candidate
+from fluxbore.optimize.pareto_lanes import Ask
+from fluxbore.optimize.pareto_scalar import Scalarisation
+from fluxbore.optimize.pareto_sight import Sight
+from fluxbore.optimize.pareto_slope import Conditions, met_at
+from fluxbore.optimize.problem import Point, show_limit, violation
+
+CALLS = 1000
+"""Points that one run of NLopt may ask for, repeated ones included."""
+
+ROUNDS = 4
+"""Runs of SLSQP for one point: it begins anew from the best design while norms have moved or the optimality
+conditions are not met."""
+
+RESIDUAL = 10.0
+"""The residual that is good enough, in tolerances."""
+
+_MISS = 10.0
+_UNKNOWN = 1e3
+_LEAST_SHARE = 1e-3
+
+
+@dataclass(frozen=True, slots=True)
+class Found:
+    """What a search for one point ended with; ``design`` is None where nothing was feasible."""
+
+    design: Candidate | None
+    conditions: Conditions | None
+    reason: str
+    designs: int
+
+
+class PointBudgetError(Exception):
+    """The search for a point asked for one design more than it may."""
+
+
+@dataclass(slots=True)
+class PointSearch:
+    """One problem with one objective, solved from several starts if need be.
+
+    budget : designs that it may have evaluated; tolerance : of the scaled losses, and of the box.
+    asked : how many were. reason : why the latest run stopped.
+    """
+
+    problem: Scalarisation
+    sight: Sight
+    archive: Archive
+    budget: int
+    tolerance: float
+    seed: int
+    asked: int = 0
+    reason: str = ""
+
+    def run(self, ask: Ask, start: Point, step: float) -> Found:
+        """Search from a scaled point with a first step (of the box); what was found, whatever ended the search."""
+        try:
+            if self.sight.gradients:
+                self._descend(ask, start, step)
+            else:
+                self._probe(ask, start, step)
+        except PointBudgetError:
+            self.reason = f"The search for this point used up its budget of {self.budget} designs."
+        return self.found()
+
+    def found(self) -> Found:
+        """The best design of the archive for this problem, and its optimality conditions."""
+        best = choose(self.problem, self.sight, self.archive, self.tolerance)
+        met = None if best is None else met_at(self.problem, self.sight, best)
+        return Found(best, met, self.reason if best is not None else self._shortfall(), self.asked)
+
+    def _descend(self, ask: Ask, start: Point, step: float) -> None:
+        """SLSQP, again from its best design until the figures' norms hold and the optimality conditions are met."""
+        point = start
+        for _ in range(ROUNDS):
+            kappas, before = self.sight.kappas(self._ask(ask, point)), self.asked
+            ending = self._slope_down(ask, point, step, kappas)
+            self.reason = ending.reason
+            if ending.stopped_by is not None:
+                raise ending.stopped_by
+            best = choose(self.problem, self.sight, self.archive, self.tolerance)
+            if best is None or self.asked == before:
+                return
+            point, moved = self.archive.box.point(best.values), self.sight.kappas(best)
+            held = all(abs(moved[name] / kappa - 1) <= self.tolerance for name, kappa in kappas.items())
+            met = met_at(self.problem, self.sight, best)
+            if held and met is not None and met.residual <= RESIDUAL * self.tolerance:
+                return
+
+    def _slope_down(self, ask: Ask, start: Point, step: float, kappas: Mapping[str, float]) -> Ending:
+        """One run of SLSQP.
+
+        It begins as if the loss's curvature were 1, so that its first step is as long as the gradient. The loss is
+        multiplied by what makes that ``step``: far longer steps cost designs, for the line search takes them back.
+        """
+        size = len(start)
+        first = self.sight.see(self._ask(ask, start), kappas)
+        if first is None:
+            return Ending(gradient_search.NO_START)
+        slack = self.problem.begin(first)
+        length = math.hypot(*self.problem.view(first, slack).slope)
+        share = 1.0 if self.problem.lifted else min(max(step / length, _LEAST_SHARE) if length else 1.0, 1.0)
+
+        def function(z: Point) -> View | None:
+            seen = self.sight.see(self._ask(ask, z[:size]), kappas)
+            if seen is None:
+                return None
+            view = self.problem.view(seen, z[size:])
+            # One more, so that the tolerance is one of the front's range where the loss itself is 0.
+            return replace(view, loss=share * (1 + view.loss), slope=tuple(share * slope for slope in view.slope))
+
+        lower, upper = (0.0,) * (size + len(slack)), (1.0,) * (size + len(slack))
+        return gradient_search.minimise(
+            function,
+            (*start, *slack),
+            lower,
+            upper,
+            objective_tolerance=self.tolerance / 10,
+            variable_tolerance=self.tolerance / 10,
+            miss_tolerance=self.tolerance / 100,
+            calls=CALLS,
+        )
+
+    def _probe(self, ask: Ask, start: Point, step: float) -> None:
+        """COBYLA, which needs no gradients.
+
+        A design without figures is seen as worse than the worst sound one so far by one range of the objectives, and
+        as missing every limit by all of it: finite, so that the algorithm's model survives it.
+        """
+        size, worst = len(start), 0.0
+
+        def function(z: Point) -> tuple[float, tuple[float, ...]]:
+            nonlocal worst
+            seen = self.sight.see(self._ask(ask, z[:size]), {})
+            if seen is None:
+                return worst + 1.0, (1.0,) * constraints
+            view = self.problem.view(seen, z[size:])
+            worst = max(worst, view.loss)
+            return view.loss, view.misses
+
+        constraints = len(self.problem.rows) + len(self.sight.held)
+        first = self.sight.see(self._ask(ask, start), {})
+        ending = nlopt_loop.minimise(
+            "COBYLA",
+            function,
+            constraints,
+            (*start, *((0.5,) * self.problem.lifted if first is None else self.problem.begin(first))),
+            step=step,
+            objective_tolerance=self.tolerance / 10,
+            variable_tolerance=self.tolerance,
+            seed=self.seed,
+            calls=20 * self.budget + CALLS,
+        )
+        self.reason = ending.reason
+        if ending.stopped_by is not None:
+            raise ending.stopped_by
+
+    def _ask(self, ask: Ask, point: Point) -> Candidate:
+        point = self.archive.box.tidy(point)
+        if not self.archive.knows(point):
+            if self.asked >= self.budget:
+                raise PointBudgetError
+            self.asked += 1
+        return ask(point)
+
+    def _shortfall(self) -> str:
+        """Why there is no design: what the nearest one misses, and why the search stopped."""
+        known = [(miss, made) for _, made in self.archive.points if not math.isinf(max(miss := self._miss(made)))]
+        if not known:
+            return f"No design for this point could be evaluated in full. {self.reason}".strip()
+        (row, _), near = min(known, key=lambda item: max(item[0]))
+        words = [
+            f"{item.limit.subject} {item.limit.sense} {show_limit(self.sight.base, item.limit)} by {-item.margin:.2%}"
+            for item in near.checks
+            if not item.satisfied and item.margin is not None
+        ]
+        if row > self.tolerance:
+            words.append(f"the bound on the other objective by {row:.2%} of the front's range")
+        return f"No design met every limit; the nearest missed {' and '.join(words)}. {self.reason}".strip()
+
+    def _miss(self, design: Candidate) -> tuple[float, float]:
+        losses = self.sight.scale.losses(design)
+        return (math.inf, math.inf) if losses is None else (self.problem.score(*losses)[0], violation(design))
+
+
+def choose(problem: Scalarisation, sight: Sight, archive: Archive, tolerance: float) -> Candidate | None:
+    """The feasible design of the archive that solves the problem best; rows may be missed by ``tolerance``."""
+    best: tuple[float, Candidate] | None = None
+    for _, design in archive.points:
+        losses = sight.scale.losses(design)
+        if losses is None or not design.feasible:
+            continue
+        miss, loss = problem.score(*losses)
+        if miss <= tolerance and (best is None or loss < best[0]):
+            best = (loss, design)
+    return None if best is None else best[1]
+
+
+def nearest(problem: Scalarisation, sight: Sight, archive: Archive) -> Candidate | None:
+    """The design of the archive from which to begin: little missed, little lost."""
+    best: tuple[float, Candidate] | None = None
+    for _, design in archive.points:
+        losses = sight.scale.losses(design)
+        if losses is None:
+            continue
+        miss, loss = problem.score(*losses)
+        merit = loss + _MISS * (miss + min(violation(design), _UNKNOWN))
+        if best is None or merit < best[0]:
+            best = (merit, design)
+    return None if best is None else best[1]

@@ -1,0 +1,59 @@
+"""How the points of a front stand to each other, and how much the front dominates."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from fluxbore.optimize.pareto_result import FrontPoint, Standing
+from fluxbore.optimize.pareto_scalar import Scale
+
+Losses = tuple[float, float]
+
+
+def with_standing(points: Sequence[FrontPoint], scale: Scale, tolerance: float) -> tuple[FrontPoint, ...]:
+    """The points, those that another one dominates marked "dominated" and copies of an earlier one "repeated".
+
+    tolerance : of the scaled losses; what differs by less counts as equal, for the searches find no more.
+    """
+    losses = [None if point.design is None else _losses(point, scale) for point in points]
+    marked = []
+    for index, (point, own) in enumerate(zip(points, losses, strict=True)):
+        if own is None:
+            marked.append(point)
+            continue
+        others = [other for other in losses if other is not None]
+        earlier = [other for other in losses[:index] if other is not None]
+        standing: Standing = "front"
+        if any(_dominates(other, own, tolerance) for other in others):
+            standing = "dominated"
+        elif any(max(abs(a - b) for a, b in zip(other, own, strict=True)) <= tolerance for other in earlier):
+            standing = "repeated"
+        marked.append(replace(point, standing=standing))
+    return tuple(marked)
+
+
+def hypervolume(points: Sequence[FrontPoint], scale: Scale) -> float:
+    """The share of the rectangle between the ends, 0 <= u, v <= 1, that the points dominate (Zitzler and Thiele 1999).
+
+    The reference point is u = v = 1. Which points are dominated themselves does not matter.
+    """
+    inside = [pair for point in points if point.design is not None and max(pair := _losses(point, scale)) <= 1]
+    area, lowest = 0.0, 1.0
+    for u, v in sorted(inside):
+        if v < lowest:
+            area += (1.0 - u) * (lowest - v)
+            lowest = v
+    return area
+
+
+def _losses(point: FrontPoint, scale: Scale) -> Losses:
+    assert point.first is not None
+    assert point.second is not None
+    return scale.scaled((point.first, point.second))
+
+
+def _dominates(one: Losses, other: Losses, tolerance: float) -> bool:
+    """Whether the first is better in one loss by more than the tolerance and in the other one no worse."""
+    gains = [b - a for a, b in zip(one, other, strict=True)]
+    return max(gains) > tolerance and min(gains) >= 0
