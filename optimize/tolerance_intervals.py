@@ -26,26 +26,30 @@ def share_interval(count: int, of: int, confidence: float = CONFIDENCE) -> Inter
 
 
 def corrected_share(linear: Flags, checked_linear: Flags, checked_full: Flags) -> Interval:
-    """A share in full from many linear verdicts and the few samples that have both, (samples,) and (checks,).
+    """A share in full from many linear verdicts, (samples,), and the few samples that have both, (checks,).
 
-    With a the share of samples that only the full model passes and b that of those that only the linear one does,
-    the full share is  p = p_linear + a - b:  the linear verdict is the control variate. The interval adds the ends of
-    those three, each by Clopper and Pearson, and is cut to the plain count's in the checks; the four share the
-    allowed error in equal parts (Bonferroni), so that all hold together at `CONFIDENCE`. Unlike one from a variance
-    it stays honest where no two verdicts differ.
+    The linear verdict is the control variate, its coefficient that of least variance, which for two verdicts is
+    stratification after sampling:  p = s q1 + (1 - s) q0  with s the linear share and q1, q0 the full shares among
+    the checks that the linear model passes and fails. Each of the three has Clopper and Pearson's interval at a third
+    of the allowed error (Bonferroni), and the interval of p is the widest that they leave. Unlike one from a variance
+    it stays honest where no two verdicts differ. A stratum without a check is taken by the linear verdict, and its
+    interval is open.
     """
-    count = len(checked_full)
-    confidence = 1 - (1 - CONFIDENCE) / 4
+    confidence = 1 - (1 - CONFIDENCE) / 3
     many = share_interval(int(linear.sum()), len(linear), confidence)
-    gained = share_interval(int((checked_full & ~checked_linear).sum()), count, confidence)
-    lost = share_interval(int((checked_linear & ~checked_full).sum()), count, confidence)
-    plain = share_interval(int(checked_full.sum()), count, confidence)
-    low = max(many.low + gained.low - lost.high, plain.low)
-    high = min(many.high + gained.high - lost.low, plain.high)
-    value = min(max(many.value + gained.value - lost.value, 0.0), 1.0)
-    # Where the two disagree, which at this confidence is rare, neither is cut.
-    low, high = (low, high) if low <= high else (plain.low, plain.high)
-    return Interval(min(max(value, low), high), low, high)
+    passed, failed = (
+        share_interval(int(found.sum()), len(found), confidence) if len(found) else Interval(verdict, 0.0, 1.0)
+        for found, verdict in ((checked_full[checked_linear], 1.0), (checked_full[~checked_linear], 0.0))
+    )
+
+    def mixed(share: float, one: float, other: float) -> float:
+        return share * one + (1 - share) * other
+
+    return Interval(
+        mixed(many.value, passed.value, failed.value),
+        min(mixed(share, passed.low, failed.low) for share in (many.low, many.high)),
+        max(mixed(share, passed.high, failed.high) for share in (many.low, many.high)),
+    )
 
 
 def quantile_interval(ordered: Array, share: float, confidence: float = CONFIDENCE) -> Interval:

@@ -94,7 +94,7 @@ def test_the_simulated_yield_covers_the_truth_over_200_seeds():
     limits = [Constraint(X, upper=1.1, lower=0.9), Constraint(Y, lower=0.8)]
     covered = 0
     for seed in range(200):
-        made = analyse(study(production(0.3, 0.6, samples=200, seed=seed), limits=limits)).simulated
+        made = analyse(study(production(0.3, 0.6, samples=100, seed=seed), limits=limits)).simulated
         covered += made.low <= truth <= made.high
     assert covered >= 180
 
