@@ -100,7 +100,7 @@ class Search:
     network : one of `NETWORK_ROLES`.
     """
 
-    algorithm: str = "COBYLA"
+    algorithm: str = "auto"
     max_evaluations: int = 60
     relative_tolerance: float = 1e-4
     seed: int = 1

@@ -91,11 +91,16 @@ def candidate(
 ) -> Candidate:
     """The evaluated design ``spec`` as the study sees it; ``keys`` are those whose values it carries."""
     return Candidate(
-        values={key: spec.number(key) for key in keys},
+        values=numbers({key: spec.values[key] for key in keys}),
         evaluation=evaluation,
         objective=getattr(evaluation.performance, objective.figure) if evaluation.ok else None,
         checks=check(limits, spec.values, evaluation.performance, evaluation.fidelity),
     )
+
+
+def numbers(values: Mapping[str, Value]) -> dict[str, float]:
+    """The values as numbers; a count stays a whole number."""
+    return {key: value if isinstance(value, int) else float(value) for key, value in values.items()}
 
 
 def violation(design: Candidate) -> float:
@@ -118,7 +123,7 @@ def better(one: Candidate, other: Candidate, objective: Objective) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class Box:
-    """The variables and their bounds (SI), with limits on the variables themselves taken into the bounds."""
+    """The continuous variables and their bounds (SI), with limits on the variables themselves in the bounds."""
 
     keys: tuple[str, ...]
     lower: tuple[float, ...]
@@ -148,9 +153,10 @@ class Box:
 
 
 def box(spec: Spec, limits: Sequence[Limit]) -> Box:
-    """The study's variables within their bounds and limits. SpecError where nothing is left between them."""
+    """The study's continuous variables within bounds and limits. SpecError where nothing is left between them."""
     lower, upper = [], []
-    for variable in spec.study.variables:
+    variables = [variable for variable in spec.study.variables if not variable.integer]
+    for variable in variables:
         own = [limit for limit in limits if limit.subject == variable.key]
         low = max([variable.lower, *(limit.limit for limit in own if limit.sense == ">=")])
         high = min([variable.upper, *(limit.limit for limit in own if limit.sense == "<=")])
@@ -163,7 +169,7 @@ def box(spec: Spec, limits: Sequence[Limit]) -> Box:
             )
         lower.append(low)
         upper.append(high)
-    return Box(tuple(variable.key for variable in spec.study.variables), tuple(lower), tuple(upper))
+    return Box(tuple(variable.key for variable in variables), tuple(lower), tuple(upper))
 
 
 @dataclass(frozen=True, slots=True)

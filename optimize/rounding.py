@@ -2,7 +2,8 @@
 
 The step next to the optimum need not be the best one, nor feasible: where a limit runs slantwise through the steps, the
 best design of the workshop's is often some steps along it. So the nearest steps are evaluated first, then those that
-quadratic models of all designs seen so far expect to be better.
+quadratic models of all designs seen so far expect to be better. Where designs bring derivatives, first-order models
+around the designs seen take the place of both: they order the steps from the first one on.
 """
 
 from __future__ import annotations
@@ -14,12 +15,17 @@ from itertools import product
 
 from fluxbore.design.study import Variable
 from fluxbore.optimize.archive import Archive
+from fluxbore.optimize.gradient_search import View
 from fluxbore.optimize.models import fit
 from fluxbore.optimize.outcome import Candidate, Limit
-from fluxbore.optimize.problem import Merit, better
+from fluxbore.optimize.problem import Merit, Point, better
+from fluxbore.optimize.slopes import Slopes
 
 MOST_COMBINED = 4
 """Variables whose steps below and above are all combined; with more, each goes to its nearest step."""
+
+MOST_ORDERED = 10
+"""The same where derivatives put the combinations in order: 1024 are ordered, a few are evaluated."""
 
 FURTHER_ROUNDS = 3
 AT_ONCE = 2
@@ -29,23 +35,39 @@ _REACH = {1: 40, 2: 20, 3: 7, 4: 3}
 _SLACK = 1e-6
 
 
-def reserve(variables: Sequence[Variable]) -> int:
+def reserve(variables: Sequence[Variable], slopes: Slopes | None = None) -> int:
     """The designs that a search keeps back from its budget for the rounding; 0 without a resolution."""
     near = _nearest_count(variables)
+    if slopes is not None:
+        near = min(near or 1, AT_ONCE * FURTHER_ROUNDS) if _stepped(variables) else 0
     return near + AT_ONCE if near else 0
 
 
 def round_off(
-    archive: Archive, variables: Sequence[Variable], merit: Merit, held: Sequence[Limit], tolerance: float
+    archive: Archive,
+    variables: Sequence[Variable],
+    merit: Merit,
+    held: Sequence[Limit],
+    tolerance: float,
+    slopes: Slopes | None = None,
 ) -> Candidate | None:
     """The best design at the workshop's steps, evaluated; None without a resolution or without a feasible design.
 
+    variables : the continuous ones. slopes : of designs that bring derivatives, else None.
     It may violate a limit where all that were tried do: its checks tell. ``tolerance`` is the relative gain that is
     worth another design. Stays within the archive's budget.
     """
     best = archive.best
-    if best is None or not _nearest_count(variables):
+    if best is None or not _stepped(variables):
         return None
+    if slopes is not None and slopes.known(best) and len(_stepped(variables)) <= MOST_ORDERED:
+        around = _designs(archive, variables, best, _REACH.get(len(_stepped(variables)), 0), combined=True)
+        for _ in range(1 + FURTHER_ROUNDS):
+            expected = _ordered(archive, variables, around, slopes, tolerance)
+            if not expected or not archive.left:
+                break
+            archive.evaluate(expected[: archive.left])
+        return _best_step(archive, variables)
     archive.evaluate(_designs(archive, variables, best, 0)[: min(_nearest_count(variables), archive.left)])
     if _combined(variables):
         around = _designs(archive, variables, best, _REACH[len(_stepped(variables))])
@@ -55,6 +77,46 @@ def round_off(
                 break
             archive.evaluate(expected[: archive.left])
     return _best_step(archive, variables)
+
+
+def _ordered(
+    archive: Archive,
+    variables: Sequence[Variable],
+    designs: Sequence[dict[str, float]],
+    slopes: Slopes,
+    tolerance: float,
+) -> list[dict[str, float]]:
+    """The designs not yet seen of which first-order models expect the most, the feasible ones first.
+
+    Each is judged from the nearest design that brings derivatives, so every design evaluated mends the picture.
+    """
+    views = [(point, view) for point, made in archive.points if (view := slopes.own_view(made)) is not None]
+    known = _best_step(archive, variables)
+    bar = slopes.merit.loss(known) if known is not None and known.feasible else None
+    ranked = []
+    for i, values in enumerate(designs):
+        point = archive.box.point(values)
+        if archive.knows(point):
+            continue
+        loss, misses = predicted(*min(views, key=lambda item: math.dist(item[0], point)), point)
+        worst = max([0.0, *misses])
+        if bar is None or (worst <= 0 and loss < bar - tolerance):
+            ranked.append((worst, loss, i))
+    return [designs[i] for _, _, i in sorted(ranked)[:AT_ONCE]]
+
+
+def predicted(centre: Point, view: View, point: Point) -> tuple[float, list[float]]:
+    """Loss and misses at a scaled point, to first order from the view at ``centre``."""
+    step = [x - c for x, c in zip(point, centre, strict=True)]
+    rows = zip(view.misses, view.miss_slopes, strict=True)
+    return (
+        view.loss + _dot(view.slope, step),
+        [miss + _dot(slopes, step) for miss, slopes in rows],
+    )
+
+
+def _dot(one: Sequence[float], other: Sequence[float]) -> float:
+    return sum(a * b for a, b in zip(one, other, strict=True))
 
 
 def _expected(
@@ -91,14 +153,17 @@ def _best_step(archive: Archive, variables: Sequence[Variable]) -> Candidate | N
     return reduce(lambda one, other: other if better(other, one, archive.objective) else one, made) if made else None
 
 
-def _designs(archive: Archive, variables: Sequence[Variable], best: Candidate, reach: int) -> list[dict[str, float]]:
+def _designs(
+    archive: Archive, variables: Sequence[Variable], best: Candidate, reach: int, combined: bool | None = None
+) -> list[dict[str, float]]:
     """The workshop's designs around ``best``, up to ``reach`` steps beyond the steps next to it, the nearest first."""
     choices = []
+    combined = _combined(variables) if combined is None else combined
     for variable in variables:
         index = archive.box.keys.index(variable.key)
         bounds = archive.box.lower[index], archive.box.upper[index]
         steps = _steps(variable, best.values[variable.key], reach, *bounds)
-        choices.append(steps if _combined(variables) else steps[:1])
+        choices.append(steps if combined else steps[:1])
     keys = [variable.key for variable in variables]
 
     def distance(values: Sequence[float]) -> float:

@@ -9,21 +9,20 @@ from collections.abc import Sequence
 from fluxbore.design.errors import FluxboreError, SpecError
 from fluxbore.design.performance import Performance
 from fluxbore.design.spec import Spec
-from fluxbore.optimize import nlopt_loop
-from fluxbore.optimize.archive import Archive, BudgetUsedError
+from fluxbore.design.study import GRADIENT_ALGORITHMS
+from fluxbore.optimize.enumeration import combinations
+from fluxbore.optimize.evaluate import MODELS
 from fluxbore.optimize.evaluate import evaluate as evaluate_design
 from fluxbore.optimize.evaluation import failure
 from fluxbore.optimize.evaluator import Evaluate, Evaluator
-from fluxbore.optimize.executor import Executor, SerialExecutor
+from fluxbore.optimize.executor import Executor
 from fluxbore.optimize.journal import Journal
+from fluxbore.optimize.network_start import network_optimum as network_optimum
 from fluxbore.optimize.outcome import Candidate, Limit, SearchResult, SweepResult
-from fluxbore.optimize.problem import Box, Merit, box, candidate, check, resolve_limits, show_limit, violation
+from fluxbore.optimize.problem import Box, box, candidate, check, resolve_limits, show_limit
 from fluxbore.optimize.progress import Report, Tracker
-from fluxbore.optimize.stages import FIRST_STEP, Stages
+from fluxbore.optimize.search_run import SearchRun
 from fluxbore.optimize.sweep import DEFAULT_OBJECTIVE, numbers
-
-NETWORK_CALLS = 150
-"""Calls of the network for each variable in the global search for its optimum; it costs a thousandth of the FEM."""
 
 
 def run_search(
@@ -32,8 +31,11 @@ def run_search(
     executor: Executor,
     progress: Report | None = None,
     evaluate: Evaluate = evaluate_design,
+    gradients: bool | None = None,
 ) -> SearchResult:
     """Look for the study's best feasible design by FEM, within ``max_evaluations`` designs, the start among them.
+
+    gradients : whether ``evaluate`` brings derivatives; None asks `fluxbore.optimize.evaluate.MODELS`.
 
     Nothing that happens to a design ends the search. Whatever does end it (convergence, budget, a full disk, Ctrl-C)
     stands in ``ending`` and ``stop_reason``, and the best feasible design so far in ``best``. With the journal of a
@@ -48,48 +50,37 @@ def run_search(
         raise SpecError(f"{missing} must be given for a search; got none.")
     check_study(spec)
     begin = time.monotonic()
-    base = spec.for_study()
+    base, search = spec.for_study(), study.search
     bounds = _bounds(base)
-    budget = study.search.max_evaluations
-    evaluator = Evaluator(base, executor, journal, "fem", evaluate, "search")
-    network = network_optimum(base, bounds, evaluate)
+    given = gives_gradients(spec, evaluate) if gradients is None else gradients
+    algorithm, remark = _algorithm(search.algorithm, given and bool(bounds.keys))
+    slopes = bounds.keys if algorithm in GRADIENT_ALGORITHMS else ()
+    run = SearchRun(
+        base=base,
+        bounds=bounds,
+        combinations=combinations(base, _known_limits(base)),
+        algorithm=algorithm,
+        evaluator=Evaluator(base, executor, journal, "fem", evaluate, "search", slopes),
+        gradients=given,
+        tracker=Tracker("search", search.max_evaluations, progress, study.objective),
+        deadline=math.inf if search.time_limit is None else begin + search.time_limit,
+    )
+    return run.result(remark, begin)
 
-    # The first designs side by side: the start as it is (limits refer to it), clipped into the bounds, the network's.
-    own = {key: base.number(key) for key in bounds.keys}
-    inside = bounds.contains(own)
-    first = [own, *([] if inside else [bounds.values(bounds.point(own))]), *([network.values] if network else [])][
-        :budget
-    ]
-    done = evaluator.all(first)
-    try:
-        limits = resolve_limits(base, done[0].evaluation)
-    except FluxboreError as error:
-        start = candidate(base, study.objective, (), bounds.keys, done[0].evaluation)
-        return SearchResult(start, network, (start,), (None,), None, None, str(error), time.monotonic() - begin)
-    start = candidate(base, study.objective, limits, bounds.keys, done[0].evaluation)
-    tracker = Tracker("search", budget, progress, study.objective)
-    # A start outside the bounds is not one of the search's designs, but it has cost one.
-    archive = Archive(evaluator, bounds, study.objective, limits, budget if inside else budget - 1, tracker)
-    stages = Stages(
-        archive=archive,
-        study=study,
-        merit=Merit(study.objective, _size(start, *(network,) if network else ())),
-        held=[limit for limit in limits if limit.subject not in bounds.keys],
-        back_off=study.search.relative_tolerance / 10,
-    )
-    reason = stages.run(first if inside else first[1:], done if inside else done[1:]) + _shortfall(base, archive)
-    return SearchResult(
-        start=start,
-        network_start=network,
-        history=tuple(archive.history),
-        best_so_far=tuple(archive.best_so_far),
-        best=archive.best,
-        rounded=stages.rounded,
-        stop_reason=reason,
-        seconds=time.monotonic() - begin,
-        ending=stages.ending,
-        reused=archive.reused,
-    )
+
+def gives_gradients(spec: Spec, evaluate: Evaluate) -> bool:
+    """Whether evaluations by this function bring derivatives, as far as the table of models knows."""
+    model = MODELS.get(spec.kind.name)
+    return evaluate is evaluate_design and model is not None and model.gradients
+
+
+def _algorithm(wanted: str, gradients: bool) -> tuple[str, str]:
+    """The algorithm to run, and what there is to say where it is not the one that is wanted."""
+    if wanted == "auto":
+        return ("SLSQP" if gradients else "COBYLA"), ""
+    if wanted in GRADIENT_ALGORITHMS and not gradients:
+        return "COBYLA", f"{wanted} needs derivatives, which there are none of here, so COBYLA searched. "
+    return wanted, ""
 
 
 def check_study(spec: Spec) -> None:
@@ -99,55 +90,18 @@ def check_study(spec: Spec) -> None:
     "1.1 x start" on a key counts, for the start's own keys are known.
     """
     base = spec.for_study()
-    bounds = _bounds(base)
-    for item in check(_known_limits(base), base.values, Performance(), "network") if bounds.keys else ():
+    _bounds(base)
+    combinations(base, _known_limits(base))
+    moving = {variable.key for variable in base.study.variables}
+    for item in check(_known_limits(base), base.values, Performance(), "network") if moving else ():
         name = item.limit.subject
-        if item.satisfied or name in bounds.keys or name not in base.given:
+        if item.satisfied or name in moving or name not in base.given:
             continue
         word = "at most" if item.limit.sense == "<=" else "at least"
         raise SpecError(
             f"study.constraints cannot be met: {name} would have to be {word} {show_limit(base, item.limit)}, but no "
             f"variable moves it from {base.kind.known(name).show(base.number(name))}."
         )
-
-
-def network_optimum(base: Spec, bounds: Box, evaluate: Evaluate) -> Candidate | None:
-    """The magnetic network's own optimum under those limits that it can evaluate; None where it finds none.
-
-    Global (DIRECT-L), then local (COBYLA); a few hundred calls of microseconds, in this process.
-    """
-    objective = base.study.objective or DEFAULT_OBJECTIVE
-    evaluator = Evaluator(base, SerialExecutor(), None, "network", evaluate, "search")
-    start = evaluator.all([{}])[0].evaluation
-    limits = [
-        limit
-        for limit in resolve_limits(base, start)
-        if limit.subject not in bounds.keys
-        and (limit.subject in base.values or getattr(start.performance, limit.subject) is not None)
-    ]
-    calls = NETWORK_CALLS * len(bounds.keys)
-    archive = Archive(evaluator, bounds, objective, limits, 2 * calls)
-    made = candidate(base, objective, limits, bounds.keys, start)
-    stages = Stages(archive, base.study, Merit(objective, _size(made)), limits, back_off=0.0)
-    for algorithm in ("DIRECT-L", "COBYLA"):
-        best = archive.best
-        if algorithm == "COBYLA" and best is None:
-            break
-        origin = archive.box.point({key: base.number(key) for key in bounds.keys} if best is None else best.values)
-        ending = nlopt_loop.minimise(
-            algorithm,
-            stages.see,
-            len(limits),
-            origin,
-            step=FIRST_STEP / 2,
-            objective_tolerance=1e-7,
-            variable_tolerance=1e-4,
-            seed=base.study.search.seed,
-            calls=calls,
-        )
-        if ending.stopped_by is not None and not isinstance(ending.stopped_by, BudgetUsedError):
-            raise ending.stopped_by
-    return archive.best
 
 
 def one_at_a_time(
@@ -193,26 +147,3 @@ def _bounds(base: Spec) -> Box:
     """The box of the variables, with the limits on them."""
     keys = {variable.key for variable in base.study.variables}
     return box(base, [limit for limit in _known_limits(base) if limit.subject in keys])
-
-
-def _shortfall(base: Spec, archive: Archive) -> str:
-    """Where no design was feasible: which limits the nearest one missed, and by how much."""
-    if archive.best is not None or not archive.history:
-        return ""
-    nearest = min(archive.history, key=violation)
-    if math.isinf(violation(nearest)):
-        return " None of its designs could be evaluated in full."
-    missed = [
-        f"{item.limit.subject} {item.limit.sense} {show_limit(base, item.limit)} by {-item.margin:.2%}"
-        for item in nearest.checks
-        if not item.satisfied and item.margin is not None
-    ]
-    return f" No design met every limit; the nearest missed {' and '.join(missed)}."
-
-
-def _size(*designs: Candidate) -> float:
-    """The objective's size, for scaling: the first design's that has one."""
-    for design in designs:
-        if design.objective and math.isfinite(design.objective):
-            return abs(design.objective)
-    return 1.0

@@ -1,19 +1,23 @@
-"""What a search does, one stage after the other, over one archive of designs."""
+"""What a search of one combination of counts does, one stage after the other, over one archive of designs."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import reduce
+from functools import cached_property, reduce
 
 from fluxbore.design.errors import FluxboreError
-from fluxbore.design.study import Study
-from fluxbore.optimize import nlopt_loop, rounding
-from fluxbore.optimize.archive import Archive, BudgetUsedError
+from fluxbore.design.study import GRADIENT_ALGORITHMS, Search
+from fluxbore.optimize import elastic, nlopt_loop
+from fluxbore.optimize.archive import Archive, BudgetUsedError, TimeUsedError
 from fluxbore.optimize.evaluator import Evaluated
+from fluxbore.optimize.gradient_search import NO_START
+from fluxbore.optimize.gradient_stage import GradientStage
+from fluxbore.optimize.multistart import search_from_many
 from fluxbore.optimize.outcome import Candidate, Limit, SearchEnding
 from fluxbore.optimize.polish import polish
-from fluxbore.optimize.problem import Merit, Point, better
+from fluxbore.optimize.problem import Merit, Point, better, violation
+from fluxbore.optimize.slopes import NoSlopesError, Slopes
 
 FIRST_STEP = 0.1
 """First step of the local searches, of each variable's range."""
@@ -21,80 +25,151 @@ FIRST_STEP = 0.1
 GLOBAL_SHARE = 0.6
 """What a global algorithm gets of the budget; the rest is for the local search after it."""
 
+RESTORING_SHARE = 0.25
+"""Of the budget, kept back as long as no design is feasible: to find the least infeasible one."""
 
-@dataclass(slots=True)
+Propose = Callable[[Archive, Point], str]
+"""A search in place of NLopt's, from a scaled point; returns why it ended."""
+
+
+@dataclass
 class Stages:
     """The stages of one search over its archive.
 
+    algorithm : the one to run; `GRADIENT_ALGORITHMS` need an archive whose designs bring derivatives.
     held : the limits that NLopt must hold; those on variables are in the box already.
     back_off : room to leave to them (relative). Searches close in on a limit from both sides; this much room makes
     what they find feasible.
+    propose : the search to run in place of NLopt's, or None.
     ending : how `run` ended.
     """
 
     archive: Archive
-    study: Study
+    search: Search
+    algorithm: str
     merit: Merit
     held: Sequence[Limit]
     back_off: float
-    rounded: Candidate | None = None
+    slopes: Slopes
+    propose: Propose | None = None
     ending: SearchEnding = "done"
     penalties: dict[Point, float] = field(default_factory=dict)
 
-    def run(self, first: Sequence[Mapping[str, float]], done: Sequence[Evaluated]) -> str:
-        """Run every stage; returns in words why the search ended."""
-        variables, most = self.study.variables, self.archive.budget
-        reserve = min(rounding.reserve(variables), most // 3)
-        self.archive.budget = most - reserve
+    @cached_property
+    def gradient(self) -> GradientStage:
+        return GradientStage(self.archive, self.slopes, self.back_off, self.search.relative_tolerance)
+
+    def run(self, first: Sequence[Mapping[str, float]], done: Sequence[Evaluated] | None = None) -> str:
+        """Run every stage from these designs; returns in words why the search ended.
+
+        done : what is known of them already, else they are evaluated here, as many as the budget allows.
+        """
         try:
-            begun = [self.archive.adopt(v, d.evaluation, d.reused) for v, d in zip(first, done, strict=True)]
-            reason = self.search(begun)
+            if done is None:
+                self.archive.evaluate(first[: self.archive.left])
+            for values, item in zip(first, done or (), strict=done is not None):
+                self.archive.adopt(values, item.evaluation, item.reused)
+            return self.restored(self.searched())
         except KeyboardInterrupt:
             self.ending = "interrupted"
             return "The search was interrupted."
         except Exception as error:
             self.ending = "failed"
-            return _mishap(error)
-        self.archive.budget = most
-        try:
-            self.rounded = rounding.round_off(
-                self.archive, variables, self.merit, self.held, self.study.search.relative_tolerance
-            )
-        except KeyboardInterrupt:
-            self.ending = "interrupted"
-            return f"{reason} The rounding to the workshop's steps was interrupted."
-        except Exception as error:
-            self.ending = "failed"
-            return f"{reason} The rounding to the workshop's steps failed: {_mishap(error)}"
-        return reason
+            return mishap(error)
 
-    def search(self, begun: Sequence[Candidate]) -> str:
-        """NLopt from the best of the first designs, then the polishing; a used-up budget is an ending like others."""
-        archive, search = self.archive, self.study.search
-        reason, spent = "", f"The search used up its budget of {search.max_evaluations} FEM designs."
-        if not begun:
-            return spent
-        origin = reduce(lambda one, other: other if better(other, one, archive.objective) else one, begun)
+    def searched(self) -> str:
+        """The search from the best of the first designs; a used-up budget is an ending like others."""
+        archive = self.archive
+        if not archive.history:
+            return self.spent(BudgetUsedError())
+        if not archive.box.keys:
+            return "Only counts vary: this combination is one design."
+        if self.held:
+            archive.reserve = int(RESTORING_SHARE * archive.left)
+        origin = self.best_known()
+        try:
+            if self.propose is not None:
+                return self.propose(archive, archive.box.point(origin.values))
+            if self.algorithm in GRADIENT_ALGORITHMS:
+                return self.by_gradients(origin)
+            return self.freely(self.algorithm, origin)
+        except BudgetUsedError as error:
+            return self.spent(error)
+
+    def restored(self, reason: str) -> str:
+        """Where nothing feasible was found: look for the least infeasible design, and search on where it is feasible.
+
+        For what keeps designs from being feasible see `fluxbore.optimize.elastic.conflict`.
+        """
+        archive, nearest = self.archive, min(self.archive.history, key=violation, default=None)
+        archive.reserve = 0
+        if archive.best is not None or not self.held or nearest is None or not nearest.evaluation.ok:
+            return reason
+        try:
+            try:
+                if self.algorithm not in GRADIENT_ALGORITHMS:
+                    raise NoSlopesError
+                elastic.approach(self.gradient, nearest)
+            except NoSlopesError:
+                elastic.approach_freely(
+                    self.gradient, self.see, archive.box.point(nearest.values), self.search.relative_tolerance * 10
+                )
+        except BudgetUsedError as error:
+            return self.spent(error)
+        if any(made.feasible for made in archive.history):
+            return self.searched()
+        return "The search ended at the least infeasible design that it found."
+
+    def by_gradients(self, origin: Candidate) -> str:
+        """SLSQP, MMA or CCSAQ, or SLSQP from many places; COBYLA where derivatives are missing or do not lead on."""
+        try:
+            if self.algorithm == "MLSL":
+                return search_from_many(self.gradient, self.search.seed)
+            reason = self.gradient.run(self.algorithm, origin)
+        except NoSlopesError as error:
+            words = f"The model gives no derivative of {error}, so COBYLA searched in place of {self.algorithm}. "
+            return words + self.freely("COBYLA", origin)
+        if reason == NO_START:
+            return f"{reason} COBYLA searched instead. " + self.freely("COBYLA", origin)
+        best = self.archive.best
+        if not self.gradient.failed or best is None or self.gradient.first_order(self.archive.box.point(best.values)):
+            return reason
+        words = f"Designs without figures kept {self.algorithm} from going on, so COBYLA looked around its best. "
+        return words + self.freely("COBYLA", best)
+
+    def freely(self, algorithm: str, origin: Candidate) -> str:
+        """A search without derivatives: a global one is followed by a local one, and that by the polishing."""
+        archive, reason = self.archive, ""
         point = archive.box.point(origin.values)
         try:
-            if search.algorithm in nlopt_loop.GLOBAL:
-                reason = f"{search.algorithm} looked at the whole range; then COBYLA looked around its best. "
+            if algorithm in nlopt_loop.GLOBAL:
+                reason = f"{algorithm} looked at the whole range; then COBYLA looked around its best. "
                 self.explore(point)
                 point = point if archive.best is None else archive.box.point(archive.best.values)
-            local = "BOBYQA" if search.algorithm == "BOBYQA" else "COBYLA"
+            local = "BOBYQA" if algorithm == "BOBYQA" else "COBYLA"
             self.prefetch(point, both=local == "BOBYQA")
             reason += self.loop(local, point)
-            polish(archive, self.merit, self.held, self.back_off, search.relative_tolerance / 10)
-        except BudgetUsedError:
-            return reason + spent
+            polish(archive, self.merit, self.held, self.back_off, self.search.relative_tolerance / 10)
+        except BudgetUsedError as error:
+            return reason + self.spent(error)
         return reason
+
+    def spent(self, error: BudgetUsedError) -> str:
+        if isinstance(error, TimeUsedError):
+            return f"The search reached its time limit of {self.search.time_limit:g} s."
+        return f"The search used up its budget of {self.search.max_evaluations} FEM designs."
+
+    def best_known(self) -> Candidate:
+        """The best of all designs so far, feasible or not."""
+        objective = self.archive.objective
+        return reduce(lambda one, other: other if better(other, one, objective) else one, self.archive.history)
 
     def explore(self, point: Point) -> None:
         """Let a global algorithm have its share of the budget; it finds the valley, a local one finds its floor."""
         archive, most = self.archive, self.archive.budget
         archive.budget = most - int((1 - GLOBAL_SHARE) * archive.left)
         try:
-            self.loop(self.study.search.algorithm, point)
+            self.loop(self.algorithm, point)
         except BudgetUsedError:
             pass
         finally:
@@ -102,7 +177,7 @@ class Stages:
 
     def loop(self, algorithm: str, point: Point) -> str:
         """One run of NLopt over the archive; returns why it ended. Raises what stopped it from within."""
-        search = self.study.search
+        search = self.search
         ending = nlopt_loop.minimise(
             algorithm,
             self.see,
@@ -148,7 +223,8 @@ class Stages:
         self.archive.evaluate([self.archive.box.values(point) for point in fresh])
 
 
-def _mishap(error: Exception) -> str:
+def mishap(error: Exception) -> str:
+    """What ended a search from without, in a sentence."""
     return (
         str(error) if isinstance(error, FluxboreError) else f"The search failed with {type(error).__name__}: {error}."
     )

@@ -1,0 +1,113 @@
+"""The gradient stages of a search: rounds of NLopt's run until maxima, norms and first-order conditions agree."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from fluxbore.optimize.archive import Archive
+from fluxbore.optimize.gradient_search import NO_START, View, minimise
+from fluxbore.optimize.nlopt_loop import Ending
+from fluxbore.optimize.optimality import multipliers
+from fluxbore.optimize.outcome import Candidate
+from fluxbore.optimize.problem import Point
+from fluxbore.optimize.slopes import Slopes
+
+ROUNDS = 8
+"""Runs of NLopt, each from where the one before ended; designs seen before cost nothing."""
+
+
+@dataclass(slots=True)
+class GradientStage:
+    """Gradient searches over an archive.
+
+    room : to leave to the limits (relative). tolerance : relative, of the objective.
+    failed : designs without figures that the searches met. ended : the point at which the latest search ended.
+    """
+
+    archive: Archive
+    slopes: Slopes
+    room: float
+    tolerance: float
+    failed: int = 0
+    ended: Point = ()
+    _seen: dict[Point, View] = field(default_factory=dict)
+
+    def run(self, algorithm: str, start: Candidate) -> str:
+        """Search from ``start`` until it is settled; returns why it ended, a sentence.
+
+        Settled: maximum / norm is the same before and after a round, and the first-order conditions hold or a round has
+        gained nothing. Raises what stopped a run from within, NoSlopesError among it.
+        """
+        self.ended = point = self.archive.box.point(start.values)
+        reason = NO_START
+        for _ in range(ROUNDS):
+            kappas = self.slopes.kappas(self.archive.at(point))
+            ending = self._round(algorithm, point, kappas)
+            if ending.stopped_by is not None:
+                raise ending.stopped_by
+            if ending.reason == NO_START:
+                break
+            reason = ending.reason
+            found = self._best(kappas)
+            if found is None:
+                break
+            before, after = self._rank(point, kappas), self._rank(found, kappas)
+            gained = before[1] - after[1] if before[0] <= after[0] else math.inf
+            moved = found != point
+            self.ended = point = found
+            if self.settled(kappas, point) and (not moved or gained <= self.tolerance / 10 or self.first_order(point)):
+                break
+        return reason
+
+    def _round(self, algorithm: str, point: Point, kappas: Mapping[str, float]) -> Ending:
+        self._seen = {}
+
+        def function(x: Point) -> View | None:
+            view = self.at(x, kappas)
+            if view is not None:
+                self._seen[self.archive.box.tidy(x)] = view
+            return view
+
+        size = len(point)
+        return minimise(
+            function,
+            point,
+            (0.0,) * size,
+            (1.0,) * size,
+            algorithm=algorithm,
+            objective_tolerance=self.tolerance / 10,
+            variable_tolerance=self.tolerance,
+            miss_tolerance=self.room / 2,
+        )
+
+    def at(self, x: Point, kappas: Mapping[str, float]) -> View | None:
+        """What NLopt sees at a scaled point: the design's view with ``room`` left to the limits."""
+        known = self.archive.knows(x)
+        view = self.slopes.view(self.archive.at(x), kappas)
+        if view is None:
+            self.failed += not known
+            return None
+        return View(view.loss, tuple(miss + self.room for miss in view.misses), view.slope, view.miss_slopes)
+
+    def settled(self, kappas: Mapping[str, float], point: Point) -> bool:
+        """Whether maximum / norm at the point is what the round took it for."""
+        now = self.slopes.kappas(self.archive.at(point))
+        return now.keys() == kappas.keys() and all(abs(now[k] / kappas[k] - 1) <= self.room / 2 for k in now)
+
+    def first_order(self, point: Point) -> bool:
+        """Whether the first-order conditions hold there."""
+        view = self.slopes.view(self.archive.at(point), self.slopes.kappas(self.archive.at(point)))
+        return view is not None and multipliers(view, point)[1] <= 10 * self.tolerance
+
+    def _best(self, kappas: Mapping[str, float]) -> Point | None:
+        """The best point of the latest round, as the round saw it; the maxima are looked at afterwards."""
+        return min(self._seen, key=lambda point: self._rank(point, kappas), default=None)
+
+    def _rank(self, point: Point, kappas: Mapping[str, float]) -> tuple[float, float]:
+        """The smaller the better: the worst miss first, then the loss."""
+        view = self._seen.get(point) or self.at(point, kappas)
+        if view is None:
+            return math.inf, math.inf
+        return max([0.0, *(miss - self.room / 2 for miss in view.misses)]), view.loss

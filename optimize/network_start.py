@@ -1,0 +1,71 @@
+"""The magnetic network's own optimum: where a search by finite elements begins."""
+
+from __future__ import annotations
+
+import math
+
+from fluxbore.design.spec import Spec
+from fluxbore.optimize import nlopt_loop
+from fluxbore.optimize.archive import Archive, BudgetUsedError
+from fluxbore.optimize.enumeration import Counts
+from fluxbore.optimize.evaluator import Evaluate, Evaluator
+from fluxbore.optimize.executor import SerialExecutor
+from fluxbore.optimize.outcome import Candidate
+from fluxbore.optimize.problem import Box, Merit, candidate, resolve_limits
+from fluxbore.optimize.slopes import Slopes
+from fluxbore.optimize.stages import FIRST_STEP, Stages
+from fluxbore.optimize.sweep import DEFAULT_OBJECTIVE
+
+NETWORK_CALLS = 150
+"""Calls of the network for each variable in the global search for its optimum; it costs a thousandth of the FEM."""
+
+
+def network_optimum(base: Spec, bounds: Box, evaluate: Evaluate, counts: Counts | None = None) -> Candidate | None:
+    """The magnetic network's own optimum under those limits that it can evaluate; None where it finds none.
+
+    counts : of one combination; limits relative to the start refer to the start's own.
+    Global (DIRECT-L), then local (COBYLA); a few hundred calls of microseconds, in this process.
+    """
+    if not bounds.keys:
+        return None
+    objective = base.study.objective or DEFAULT_OBJECTIVE
+    evaluator = Evaluator(base, SerialExecutor(), None, "network", evaluate, "search")
+    start = evaluator.all([{}])[0].evaluation
+    limits = [
+        limit
+        for limit in resolve_limits(base, start)
+        if limit.subject not in bounds.keys
+        and (limit.subject in base.values or getattr(start.performance, limit.subject) is not None)
+    ]
+    calls = NETWORK_CALLS * len(bounds.keys)
+    archive = Archive(evaluator, bounds, objective, limits, 2 * calls, fixed=counts)
+    made = candidate(base, objective, limits, bounds.keys, start)
+    merit = Merit(objective, objective_size(made))
+    stages = Stages(archive, base.study.search, "COBYLA", merit, limits, 0.0, Slopes(base, bounds, merit, limits))
+    for algorithm in ("DIRECT-L", "COBYLA"):
+        best = archive.best
+        if algorithm == "COBYLA" and best is None:
+            break
+        origin = bounds.point({key: base.number(key) for key in bounds.keys} if best is None else best.values)
+        ending = nlopt_loop.minimise(
+            algorithm,
+            stages.see,
+            len(limits),
+            origin,
+            step=FIRST_STEP / 2,
+            objective_tolerance=1e-7,
+            variable_tolerance=1e-4,
+            seed=base.study.search.seed,
+            calls=calls,
+        )
+        if ending.stopped_by is not None and not isinstance(ending.stopped_by, BudgetUsedError):
+            raise ending.stopped_by
+    return archive.best
+
+
+def objective_size(*designs: Candidate) -> float:
+    """The objective's size, for scaling: the first design's that has one."""
+    for design in designs:
+        if design.objective and math.isfinite(design.objective):
+            return abs(design.objective)
+    return 1.0

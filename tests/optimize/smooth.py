@@ -1,0 +1,100 @@
+"""Toy models with exact derivatives, for searches by gradients; importable by worker processes.
+
+Each brings what is asked for: `Evaluation.gradient` by the dotted keys, figures and derivatives from one formula.
+"""
+
+import math
+import os
+
+from toy import N, X, Y, log, spec
+
+from fluxbore.design.performance import Performance
+from fluxbore.design.study import Constraint, Objective, Search, Variable
+from fluxbore.optimize.evaluation import NOT_CONVERGED, OK, Evaluation, Norm, failure
+
+
+def made(figures, slopes, gradient, norms=None, fidelity="fem"):
+    """figures : name -> value; slopes : name -> {key: derivative}."""
+    wanted = {name: {key: row.get(key, 0.0) for key in gradient} for name, row in slopes.items()} if gradient else None
+    return Evaluation(fidelity, OK, (), Performance(**figures), gradient=wanted, norms=norms)
+
+
+def rosenbrock(design, fidelity="fem", gradient=()):
+    """Force 10 - a tamer Rosenbrock function; stray field x^2 + y^2; mass x + y. The network is a smoother function."""
+    log(design)
+    x, y = design.number(X), design.number(Y)
+    if fidelity == "network":
+        return made({"force_constant": 100 - (x - 0.5) ** 2 - (y - 0.5) ** 2}, {}, (), fidelity=fidelity)
+    valley = y - x * x
+    return made(
+        {"force_constant": 10 - (1 - x) ** 2 - 3 * valley**2, "stray_field": x * x + y * y, "total_mass": x + y},
+        {
+            "force_constant": {X: 2 * (1 - x) + 12 * x * valley, Y: -6 * valley},
+            "stray_field": {X: 2 * x, Y: 2 * y},
+            "total_mass": {X: 1.0, Y: 1.0},
+        },
+        gradient,
+    )
+
+
+def counted(design, fidelity="fem", gradient=()):
+    """`rosenbrock` with its top moved by the count: the best count is 3, where the force is 10 + 3 - 9/6."""
+    evaluation = rosenbrock(design, fidelity, gradient)
+    n = design.number(N)
+    figures = evaluation.performance
+    force = figures.force_constant + n - n * n / 6
+    performance = Performance(force_constant=force, stray_field=figures.stray_field, total_mass=figures.total_mass)
+    return Evaluation(fidelity, OK, (), performance, gradient=evaluation.gradient)
+
+
+def half(design, fidelity="fem", gradient=()):
+    """`rosenbrock` in which everything beyond x = 0.7 fails, one way or another."""
+    x, y = design.number(X), design.number(Y)
+    if fidelity == "fem" and x > 0.7:
+        kind = int(1e6 * abs(x + 2 * y)) % 3
+        if kind == 0:
+            raise RuntimeError("a bad day")
+        if kind == 1:
+            return failure(fidelity, NOT_CONVERGED, "No convergence.")
+        return Evaluation(fidelity, OK, (), Performance(stray_field=math.nan))
+    return rosenbrock(design, fidelity, gradient)
+
+
+def crash(design, fidelity="fem", gradient=()):
+    """`rosenbrock` that takes its process with it beyond x = 0.7."""
+    if fidelity == "fem" and design.number(X) > 0.7:
+        os._exit(3)
+    return rosenbrock(design, fidelity, gradient)
+
+
+def peaked(design, fidelity="fem", gradient=()):
+    """Force and a stray field that is the largest of three, with its 8-norm; its derivatives are the norm's."""
+    log(design)
+    x, y = design.number(X), design.number(Y)
+    parts = ((x + 1.5, 1.0, 0.0), (y + 1.4, 0.0, 1.0), (1.2 + (x + y) / 3, 1 / 3, 1 / 3))
+    mean = sum(abs(value) ** 8 for value, _, _ in parts) / 3
+    norm = mean ** (1 / 8)
+    rows = [
+        sum(abs(part[0]) ** 7 * math.copysign(1.0, part[0]) * part[i] for part in parts) / 3 * mean ** (1 / 8 - 1)
+        for i in (1, 2)
+    ]
+    return made(
+        {"force_constant": 5 + x + 2 * y - 0.1 * (x * x + y * y), "stray_field": max(value for value, _, _ in parts)},
+        {"force_constant": {X: 1 - 0.2 * x, Y: 2 - 0.2 * y}, "stray_field": {X: rows[0], Y: rows[1]}},
+        gradient,
+        {"stray_field": Norm(8.0, norm)},
+        fidelity,
+    )
+
+
+def study(x=0.2, y=0.2, constraints=None, variables=None, figure="force_constant", maximise=True, **search):
+    limits = (Constraint("stray_field", upper=1.0),) if constraints is None else constraints
+    moved = (Variable(X, -2.0, 2.0), Variable(Y, -2.0, 2.0)) if variables is None else variables
+    return spec(
+        x=x,
+        y=y,
+        objective=Objective(figure, maximise),
+        variables=moved,
+        constraints=limits,
+        search=Search(**search),
+    )
