@@ -31,6 +31,9 @@ TIME_LIMIT = 1800.0
 
 _START_FAILURES = 3
 
+_START_PATIENCE = 60.0
+"""s for a process to come up, which is not the task's time."""
+
 
 @dataclass(frozen=True, slots=True)
 class Outcome(Generic[R]):
@@ -82,8 +85,15 @@ def available_cores() -> int:
         return os.cpu_count() or 1
 
 
+def checked_time_limit(seconds: float) -> float:
+    """The limit for one task (s), which must be positive; FluxboreError says so."""
+    if not seconds > 0:
+        raise FluxboreError(f"The time limit of a design must be above 0 s; got {seconds:g} s.")
+    return seconds
+
+
 class SerialExecutor:
-    """Runs tasks one by one in this process; an exception costs its task, a crash costs all."""
+    """Runs tasks one by one in this process; an exception costs its task, a crash costs all, and time has no limit."""
 
     @property
     def workers(self) -> int:
@@ -128,9 +138,11 @@ class ProcessExecutor:
         if workers < 1:
             raise FluxboreError(f"workers must be at least 1; got {workers}.")
         self._workers = workers
-        self._time_limit = math.inf if time_limit is None else time_limit
+        self._time_limit = math.inf if time_limit is None else checked_time_limit(time_limit)
         self._idle: list[Worker] = []
+        self._busy: dict[Worker, _Job] = {}
         self._start_failures = 0
+        self._abandoned = False
 
     @property
     def workers(self) -> int:
@@ -141,7 +153,7 @@ class ProcessExecutor:
         fresh = iter(enumerate(tasks))
         again: deque[_Job] = deque()  # their worker did not even start: no blame
         suspects: deque[_Job] = deque()  # their worker died
-        busy: dict[Worker, _Job] = {}
+        busy = self._busy = {}
         main = getattr(function, "__module__", None) == "__main__"
 
         def next_job() -> _Job | None:
@@ -156,7 +168,7 @@ class ProcessExecutor:
         done: list[Outcome[R]] = []
         try:
             while True:
-                while len(busy) < self._workers and (job := next_job()) is not None:
+                while not self._abandoned and len(busy) < self._workers and (job := next_job()) is not None:
                     self._hand_out(job, busy, main)
                 # Results are given out after the next tasks are under way: what the consumer does with a result (a
                 # sync to the disk) then costs no worker's time.
@@ -168,20 +180,30 @@ class ProcessExecutor:
                 ]
                 done += self._overdue(busy)
         finally:
+            self._busy = {}
             for worker in busy:
                 worker.kill()
+
+    def abandon(self) -> None:
+        """Give up what is being computed, from any thread: `run` then ends without the outcomes that are missing."""
+        self._abandoned = True
+        for worker in list(self._busy):
+            worker.strike()
 
     def _hand_out(self, job: _Job, busy: dict[Worker, _Job], main: bool) -> None:
         job.deadline = time.monotonic() + self._time_limit
         while self._idle:
             worker = self._idle.pop()
             if worker.send(job.message):
-                busy[worker] = job
-                return
+                break
             worker.kill()  # died while idle
-        worker = start_worker(keep_main=main)
+        else:
+            job.deadline += _START_PATIENCE
+            worker = start_worker(keep_main=main)
+            worker.send(job.message)  # where it is dead already, the wait below finds out
         busy[worker] = job
-        worker.send(job.message)  # where it is dead already, the wait below finds out
+        if self._abandoned:  # while it was not in the table yet
+            worker.strike()
 
     def _answered(self, busy: dict[Worker, _Job]) -> list[Worker]:
         from multiprocessing.connection import wait
@@ -197,8 +219,11 @@ class ProcessExecutor:
         late = [worker for worker, job in busy.items() if job.deadline <= now and not worker.connection.poll()]
         for worker in late:
             worker.kill()
-        words = f"The evaluation took longer than its time limit of {self._time_limit:g} s."
-        return [Outcome(busy.pop(worker).index, None, words) for worker in late]
+        words = {
+            True: f"The evaluation took longer than its time limit of {self._time_limit:g} s.",
+            False: f"The process for the evaluation did not start within {_START_PATIENCE + self._time_limit:g} s.",
+        }
+        return [Outcome(busy.pop(worker).index, None, words[worker.ready]) for worker in late]
 
     def _take(
         self, worker: Worker, busy: dict[Worker, _Job], again: deque[_Job], suspects: deque[_Job]
@@ -218,6 +243,8 @@ class ProcessExecutor:
             yield Outcome(job.index, None, content) if kind == FAILURE else Outcome(job.index, content)
             return
         ended = worker.kill(patience=1.0)
+        if self._abandoned:
+            return
         if not worker.ready:
             self._start_failures += 1
             if self._start_failures >= _START_FAILURES:

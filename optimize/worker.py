@@ -62,6 +62,11 @@ class Worker:
         """Let an idle worker end: it sees the end of the pipe."""
         self.connection.close()
 
+    def strike(self) -> None:
+        """Kill the process and leave the rest to whoever waits for it in another thread."""
+        with contextlib.suppress(ValueError, OSError):  # it is cleared away already
+            self.process.kill()
+
     def kill(self, patience: float = 0.0) -> str:
         """End the worker, at once or after ``patience`` seconds; returns how it ended, in words."""
         self.connection.close()
@@ -89,7 +94,7 @@ def start_worker(*, keep_main: bool) -> Worker:
     ours, theirs = context.Pipe()
     process = context.Process(target=_work, args=(theirs,), daemon=True)
     main = contextlib.nullcontext() if keep_main else _main_hidden()
-    with _starting, _single_threaded(), _interrupts_held_back(), main:
+    with _starting, _single_threaded(), _interrupts_held_back(), _children_allowed(), main:
         process.start()
     theirs.close()
     return Worker(process, ours)
@@ -125,6 +130,19 @@ def _interrupts_held_back() -> Iterator[None]:
         yield
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+@contextlib.contextmanager
+def _children_allowed() -> Iterator[None]:
+    """multiprocessing refuses children to a daemon, which a cluster's worker is, since they would be orphaned when it
+    is killed. Ours end with their parent of themselves."""
+    config: dict[str, Any] = getattr(multiprocessing.current_process(), "_config", {})
+    daemon = config.pop("daemon", None)
+    try:
+        yield
+    finally:
+        if daemon is not None:
+            config["daemon"] = daemon
 
 
 @contextlib.contextmanager
