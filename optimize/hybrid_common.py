@@ -8,7 +8,18 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from fluxbore.design import column, drive, friction, losses, manufacture, pneumatics, pressure_vessel, thermal, winding
+from fluxbore.design import (
+    column,
+    drive,
+    friction,
+    inductance,
+    losses,
+    manufacture,
+    pneumatics,
+    pressure_vessel,
+    thermal,
+    winding,
+)
 from fluxbore.design.hybrid import HybridActuator
 from fluxbore.design.materials import Conductor, Material, PermanentMagnet, lookup
 from fluxbore.design.performance import Performance
@@ -25,7 +36,8 @@ THIN = 3.0
 
 
 def common_figures(spec: Spec, actuator: HybridActuator) -> Performance:
-    """The figures that need no field."""
+    """The figures that need no field; the inductance is that of a sheet beneath an ideal yoke, until a field replaces
+    it."""
     resistance = winding.resistance(
         actuator, _conductor(spec, actuator), spec.number("operating_point.winding_temperature")
     )
@@ -45,6 +57,7 @@ def common_figures(spec: Spec, actuator: HybridActuator) -> Performance:
     return Performance(
         winding_resistance=resistance,
         turns=actuator.winding.turns,
+        phase_inductance=inductance.phase_inductance(actuator),
         pneumatic_force_advance=pneumatics.advance_force(actuator, pressure),
         pneumatic_force_retract=pneumatics.retract_force(actuator, pressure),
         moving_mass=total(masses, "mover"),
@@ -76,8 +89,8 @@ def derived(spec: Spec, performance: Performance) -> Performance:
     """The figures with those that follow from the field's: drive, thrust, losses, heat and the rod's load.
 
     performance : `common_figures` and what the route's field gave, of which force_constant, gap_flux_density,
-    yoke_flux_density, phase_inductance and peak_force are read. Without a peak force the force constant stands for it,
-    without an inductance the voltage of the winding's own field is left out; without a force constant nothing follows.
+    yoke_flux_density, phase_inductance and peak_force are read. Without a peak force the force constant stands for it;
+    without a force constant nothing follows.
 
     Closed forms, smooth in the specification's values and in the figures read, to rounding; below a millisecond.
     """
