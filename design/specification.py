@@ -138,6 +138,9 @@ class Spec:
             chosen = [key for key in group.keys if key in wanted]
             if not chosen or all(key in given for key in chosen):
                 continue
+            absent = [key for key in chosen if key not in self.values]
+            if absent:
+                raise SpecError(f"{absent[0]} must have a value in the specification to be held or moved; it has none.")
             if len(chosen) > group.count:
                 raise SpecError(
                     f"The study is over-determined: at most {group.count} of {', '.join(group.keys)} can be held or "

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from fluxbore import hybrid_views
 from fluxbore.design.spec import Spec
+from fluxbore.fem import femm_coils
 from fluxbore.geometry import coils
 from fluxbore.geometry.assembly import Assembly
 
@@ -32,7 +33,7 @@ class Actuator:
 
 
 ACTUATORS: dict[str, Actuator] = {
-    "coils": Actuator(coils.assembly),
+    "coils": Actuator(coils.assembly, femm_model=femm_coils.femm_model),
     "hybrid": Actuator(
         hybrid_views.assembly, hybrid_views.flux_map, hybrid_views.slot_comparison, hybrid_views.femm_model
     ),

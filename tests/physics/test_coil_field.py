@@ -85,7 +85,7 @@ def test_inside_ampere_and_gauss_hold():
 
 @pytest.mark.parametrize("name, r, z", [("skin", 0.0127, 0.004), ("end", 0.02, 0.0254), ("corner", 0.0381, 0.0254)])
 def test_on_the_skin_it_is_the_limit_from_both_sides(name, r, z):
-    """Catches a rule that misses the logarithm on the skin: B is continuous there, its slope mu0 J ln(size/distance)."""
+    """Catches a rule that misses the logarithm on the skin: B is continuous, its slope mu0 J ln(size/distance)."""
     there = np.array(flux_density(COIL, r, z))
     steps = (1e-4, 1e-6, 1e-8)
     for sign in (-1, 1):
