@@ -82,16 +82,14 @@ def _end(start: Values, end: Values, z: Values, first: Values, second: Values) -
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Rim:
-    """Edges of one side: their factors' arguments, and where they are.
+    """Edges of one side in order: their factors' arguments, and where they are.
 
-    along : 0 for an end, whose edges run in s, 1 for the shell. numbers : (k,) of the grid line where each edge starts,
-    among all node rows of its direction. nodes : (k, 3) start, end, middle. cells : (k,).
+    along : 0 for an end, whose edges run in s, 1 for the shell. nodes : (k, 3) start, end, middle. cells : (k,).
     """
 
     factor: Callable[..., Values]
     arguments: tuple[Any, ...]
     along: int
-    numbers: Ints
     nodes: Ints
     cells: Ints
 
@@ -104,7 +102,6 @@ def _rims(grid: MappedMesh, poles: tuple[float, float]) -> list[_Rim]:
             _shell,
             (grid.z_nodes[rows][:, None], grid.z_nodes[rows + 2][:, None], float(grid.r_lines[-1]), *poles),
             1,
-            rows,
             np.stack([grid.node(rows + k, last_column) for k in (0, 2, 1)], axis=-1),
             rows // 2 * columns.size + columns.size - 1,
         )
@@ -115,7 +112,6 @@ def _rims(grid: MappedMesh, poles: tuple[float, float]) -> list[_Rim]:
                 _end,
                 (grid.r_nodes[columns][:, None], grid.r_nodes[columns + 2][:, None], end, *poles),
                 0,
-                columns,
                 np.stack([grid.node(row, columns + k) for k in (0, 2, 1)], axis=-1),
                 min(row // 2, rows.size - 1) * columns.size + columns // 2,
             )
@@ -142,7 +138,7 @@ def open_edges(grid: MappedMesh, poles: tuple[float, float]) -> EdgeTerms:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RimDerivative:
-    """s : (columns, k) by the s of the grid's node columns. z : (rows, k) by the z of its node rows. poles : (2, k)."""
+    """s, z : (lines, k) by the s and z of the grid's lines. poles : (2, k)."""
 
     s: Floats
     z: Floats
@@ -156,7 +152,7 @@ def rim_derivative(grid: MappedMesh, poles: tuple[float, float], u: Floats, v: F
     """
     columns = u.shape[1]
     found = RimDerivative(
-        np.zeros((grid.r_nodes.size, columns)), np.zeros((grid.z_nodes.size, columns)), np.zeros((2, columns))
+        np.zeros((grid.r_lines.size, columns)), np.zeros((grid.z_lines.size, columns)), np.zeros((2, columns))
     )
     for rim in _rims(grid, poles):
         at_points = np.einsum("ti,kic->ktc", _SHAPE, u[rim.nodes]) * np.einsum("ti,kic->ktc", _SHAPE, v[rim.nodes])
@@ -166,11 +162,11 @@ def rim_derivative(grid: MappedMesh, poles: tuple[float, float], u: Floats, v: F
             moved = list(rim.arguments)
             moved[place] = moved[place] + 1j * _STEP
             slope = np.imag(rim.factor(*moved)) / _STEP
-            return np.einsum("kt,ktc->kc", np.broadcast_to(slope, at_points.shape[:2]), at_points)
+            return np.asarray(np.einsum("kt,ktc->kc", np.broadcast_to(slope, at_points.shape[:2]), at_points))
 
         lines, across = (found.z, found.s) if rim.along else (found.s, found.z)
-        np.add.at(lines, rim.numbers, by(0))
-        np.add.at(lines, rim.numbers + 2, by(1))
+        lines[:-1] += by(0)
+        lines[1:] += by(1)
         if rim.along:
             radius = float(grid.r_lines[-1])
             across[-1] += by(2).sum(axis=0) / radius  # ds = r dr

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from fluxbore.fem.adjoint import node_derivative
 from fluxbore.fem.element import QUADRATURE_POINTS, shape
 from fluxbore.fem.magnetostatics import Solution
 from fluxbore.fem.mesh import Floats, Ints
+from fluxbore.fem.moved_points import node_derivative
 from fluxbore.fem.reluctivity import VACUUM_RELUCTIVITY
 
 
@@ -43,16 +43,12 @@ def stress_derivative(
     kernel = solution.system.kernel
     m, q = shell.size, QUADRATURE_POINTS.shape[0]
     rows = kernel.curl[shell].reshape(m, 2 * q, 6)
-    both = np.column_stack((solution.psi, x))[mesh.elements[shell]]
-    fields = (rows @ both).reshape(m, q, 2, 2)
-    radius = _radius(solution, shell)
-    density = (
-        _scale(annulus) * radius * (fields[:, :, 0, 0] * fields[:, :, 1, 1] + fields[:, :, 1, 0] * fields[:, :, 0, 1])
-    )
-    turned = _scale(annulus) * radius[..., None, None] * fields[:, :, ::-1]
-    pairs = ((turned[..., 1:], fields[..., :1]), (turned[..., :1], fields[..., 1:]))
+    here, there = ((rows @ field[mesh.elements[shell]][..., None]).reshape(m, q, 2) for field in (solution.psi, x))
+    scale = _scale(annulus) * _radius(solution, shell)
+    density = scale * (here[..., 0] * there[..., 1] + here[..., 1] * there[..., 0])
+    pairs = tuple((scale[..., None] * one[..., ::-1], other) for one, other in ((here, there), (there, here)))
     weight = kernel.weight[shell]
-    nodes = node_derivative(mesh.topology, rows, weight, 1 / radius, None, density[..., None], pairs, shell)[..., 0]
+    nodes = node_derivative(mesh, shell, rows, weight, shape(QUADRATURE_POINTS), pairs, density, by_rows=False)
     s_inner, s_outer = annulus[0] ** 2 / 2, annulus[1] ** 2 / 2
     value = float(np.sum(weight * density))
     return nodes, (value / (s_outer - s_inner), -value / (s_outer - s_inner))

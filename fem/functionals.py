@@ -10,11 +10,11 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from fluxbore.fem.adjoint import inverse_squared_radius, node_derivative
 from fluxbore.fem.element import kernel, shape
 from fluxbore.fem.field import CORNERS_AND_MIDDLES, line_strip
-from fluxbore.fem.mapped import MappedMesh
+from fluxbore.fem.mapped import MappedMesh, by_lines
 from fluxbore.fem.mesh import Floats
+from fluxbore.fem.moved_points import node_derivative
 from fluxbore.fem.tubular import TubularSolution
 
 EXPONENT = 32.0
@@ -25,7 +25,7 @@ EXPONENT = 32.0
 class Functional:
     """A figure at one position, and how it changes with all it is made of while the rest stays.
 
-    by_psi : (n,). s, z : (columns,) and (rows,) by the grid's node columns and rows. limits : (2,) by its own two
+    by_psi : (n,). s, z : (lines,) by the s and z of the grid's lines. limits : (2,) by its own two
     limits in z, where it has such. The others are of an incremental figure: windows (coils, 4), turns (coils,),
     reluctivity (regions,), poles (2,).
     """
@@ -60,15 +60,15 @@ class Functional:
 
 
 def on_lines(grid: MappedMesh, nodes: Floats) -> tuple[Floats, Floats]:
-    """(columns, ...) and (rows, ...) by the s of columns and the z of rows, from (n, 2, ...) by the nodes."""
+    """(lines, ...) twice by the s and the z of the grid's lines, from (n, 2, ...) by the nodes."""
     full = nodes.reshape(grid.z_nodes.size, grid.r_nodes.size, *nodes.shape[1:])
-    return full[:, :, 0].sum(axis=0), full[:, :, 1].sum(axis=1)
+    return by_lines(full[:, :, 0].sum(axis=0)), by_lines(full[:, :, 1].sum(axis=1))
 
 
 def _blank(tubular: TubularSolution) -> Functional:
     grid = tubular.grid
     return Functional(
-        0.0, np.zeros(tubular.solution.psi.size), np.zeros(grid.r_nodes.size), np.zeros(grid.z_nodes.size)
+        0.0, np.zeros(tubular.solution.psi.size), np.zeros(grid.r_lines.size), np.zeros(grid.z_lines.size)
     )
 
 
@@ -90,7 +90,7 @@ def tube_norm(
     pull = by_sample * np.sign(density) / area
     found.by_psi[grid.node(rows, outer)] += pull
     found.by_psi[grid.node(rows, inner)] -= pull
-    found.s[outer], found.s[inner] = -value / area, value / area
+    found.s[outer // 2], found.s[inner // 2] = -value / area, value / area
     return found
 
 
@@ -116,6 +116,7 @@ def shell_mean(tubular: TubularSolution, radius: float, z_range: tuple[float, fl
     scale = np.sign(end - start) / (radius * length)
     found = _blank(tubular)
     found.value = float(abs(end - start) / (radius * length))
+    by_row = np.zeros(grid.z_nodes.size)
     for place, z, sign in ((0, z_range[0], -1.0), (1, z_range[1], 1.0)):
         row = int(np.clip(np.searchsorted(grid.z_nodes, z, side="right") - 1, 0, grid.z_nodes.size - 2))
         width = grid.z_nodes[row + 1] - grid.z_nodes[row]
@@ -123,10 +124,11 @@ def shell_mean(tubular: TubularSolution, radius: float, z_range: tuple[float, fl
         slope = sign * scale * (profile[row + 1] - profile[row]) / width
         found.by_psi[nodes[row]] += sign * scale * (1 - share)
         found.by_psi[nodes[row + 1]] += sign * scale * share
-        found.z[row] -= slope * (1 - share)
-        found.z[row + 1] -= slope * share
+        by_row[row] -= slope * (1 - share)
+        by_row[row + 1] -= slope * share
         found.limits[place] = slope - sign * found.value / length
-    found.s[column] = -found.value / radius**2  # ds = r dr
+    found.z[:] = by_lines(by_row)
+    found.s[column // 2] = -found.value / radius**2  # ds = r dr
     return found
 
 
@@ -151,8 +153,8 @@ def line_norm(
     row = row_of[places]
     on_line = row >= 0
     count = np.bincount(row[on_line], minlength=line.size)
-    b = np.stack([np.bincount(row[on_line], fields[..., k][on_line], line.size) for k in range(2)], axis=-1)
-    b /= count[:, None]
+    sums = [np.bincount(row[on_line], fields[..., k][on_line], line.size) for k in range(2)]
+    b = np.stack(sums, axis=-1) / count[:, None]
     size = np.linalg.norm(b, axis=1)
     largest = float(size.max())
     relative = (size / largest) ** exponent
@@ -162,7 +164,7 @@ def line_norm(
     found = _blank(tubular)
     found.value = value
     outer = value / (exponent * integral)
-    found.z[:] = outer * by_z
+    found.z[:] = by_lines(outer * by_z)
     found.limits[:] = outer * (by_limits + np.array([integral / length, -integral / length]))
     by_size = outer * by_density * exponent * relative / np.where(size > 0, size, 1.0)
     by_b = by_size[:, None] * b / np.where(size > 0, size, 1.0)[:, None] / count[:, None]
@@ -171,20 +173,15 @@ def line_norm(
     found.by_psi += np.bincount(
         places.ravel(), np.einsum("mqkn,mqk->mn", curl, pull, optimize=True).ravel(), found.by_psi.size
     )
-    values = shape(CORNERS_AND_MIDDLES)
-    metric = inverse_squared_radius(mesh, strip, values)
     nodes = node_derivative(
-        mesh.topology,
+        mesh,
+        strip,
         curl.reshape(m, 2 * q, 6),
         np.ones((m, q)),
-        np.sqrt(metric),
-        metric,
-        None,
-        ((pull[..., None], fields[..., None]),),
-        strip,
-        values,
+        shape(CORNERS_AND_MIDDLES),
+        ((pull, fields),),
     )
-    by_s, moved = on_lines(grid, nodes[..., 0])
+    by_s, moved = on_lines(grid, nodes)
     found.s += by_s
     found.z += moved
     return found

@@ -6,7 +6,7 @@ Magnetically a coil is air; only its load and its linkage, one and the same inte
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -48,10 +48,11 @@ def coil_density(mesh: Mesh, coil: CoilWindow) -> Floats:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Clip:
+class Clip:
     """Gauss points in what windows cut out of triangles.
 
-    element, window : (p,). r, z : (p, 4, 4) m. weight : (p, 4, 4) m². barycentric : (p, 4, 4, 3).
+    element, window : (p,). triangle : (p, 3, 2) corners in the chart. r, z : (p, 4, 4) m. weight : (p, 4, 4) m².
+    barycentric : (p, 4, 4, 3).
     """
 
     element: Ints
@@ -63,7 +64,7 @@ class _Clip:
     barycentric: Floats
 
 
-def _clips(mesh: Mesh, radii: tuple[float, float], windows: Floats) -> list[_Clip]:
+def clips(mesh: Mesh, radii: tuple[float, float], windows: Floats) -> list[Clip]:
     """The part of each triangle that lies in each window of one shell.
 
     radii : of the shell, mesh lines (m). windows : (k, 2) z from and to, anywhere (m). Straight-sided elements only.
@@ -75,12 +76,12 @@ def _clips(mesh: Mesh, radii: tuple[float, float], windows: Floats) -> list[_Cli
     shell = _within(mesh, radii)
     heights = mesh.nodes[mesh.elements[shell, :3], 1]
     overlap = (heights.min(axis=1)[:, None] < windows[:, 1]) & (heights.max(axis=1)[:, None] > windows[:, 0])
-    found, which = np.nonzero(overlap)
-    element, (lower, upper) = shell[found], windows[which].T
+    pair, which = np.nonzero(overlap)
+    element, (lower, upper) = shell[pair], windows[which].T
     triangle = mesh.nodes[mesh.elements[element, :3]]
     order = np.argsort(triangle[..., 1], axis=1, kind="stable")
     low, middle, high = (np.take_along_axis(triangle, order[:, [k], None], axis=1)[:, 0] for k in range(3))
-    clips = []
+    found = []
     for start, end in ((low, middle), (middle, high)):
         bottom = np.maximum(start[:, 1], lower)
         top = np.minimum(end[:, 1], upper)
@@ -94,99 +95,20 @@ def _clips(mesh: Mesh, radii: tuple[float, float], windows: Floats) -> list[_Cli
         weight = (height[:, None] * np.abs(right - left) * _UNIT_WEIGHTS)[..., None] * _UNIT_WEIGHTS
         s = r**2 / 2
         all_z = np.broadcast_to(z[..., None], s.shape)
-        clips.append(_Clip(element, which, triangle, r, all_z, weight, _barycentric(triangle, s, all_z)))
-    return clips
+        found.append(Clip(element, which, triangle, r, all_z, weight, _barycentric(triangle, s, all_z)))
+    return found
 
 
 def _integrals(mesh: Mesh, radii: tuple[float, float], windows: Floats) -> tuple[Ints, Ints, Floats]:
-    """∫ φ_i dr dz (m²) of the six shape functions (p, 6) over the part of each triangle in each window; see `_clips`.
+    """∫ φ_i dr dz (m²) of the six shape functions (p, 6) over the part of each triangle in each window; see `clips`.
 
     Returns the element and the window of each pair that overlaps (p,), and the integrals.
     """
-    first, second = _clips(mesh, radii, windows)
+    first, second = clips(mesh, radii, windows)
     total = sum(
         np.einsum("pab,pabn->pn", clip.weight, shape(clip.barycentric), optimize=True) for clip in (first, second)
     )
     return first.element, first.window, np.asarray(total)
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class WindowDerivative:
-    """Of Σ density · v. nodes : (n, 2, k) by the chart's coordinates of each node. windows : (coils, 4, k) by r from
-    and to, z from and to (m). turns : (coils, k)."""
-
-    nodes: Floats
-    windows: Floats
-    turns: Floats
-
-
-def window_derivative(mesh: Mesh, coils: Sequence[CoilWindow], fields: Mapping[str, Floats]) -> WindowDerivative:
-    """Derivative of the sum over circuits of density · v, with v (n, k) the nodal fields of each circuit's name.
-
-    At a point of space v changes by −V·∇v where the mesh moves by V, and a window that is stretched by W adds W·∇v;
-    what W does to the window's area is taken back by the turns per area. The integrals are of the exact change, by the
-    rule that gives the densities.
-    """
-    columns = next(iter(fields.values())).shape[1]
-    nodal = np.zeros((mesh.nodes.shape[0], 2, columns))
-    by_window, by_turns = np.zeros((len(coils), 4, columns)), np.zeros((len(coils), columns))
-    for radii in {coil.r for coil in coils}:
-        alike = np.array([i for i, coil in enumerate(coils) if coil.r == radii])
-        limits = np.array([coils[i].z for i in alike])
-        for clip in _clips(mesh, radii, limits):
-            coil = alike[clip.window]
-            area = np.array([item.area for item in coils])[coil]
-            turns = np.array([item.turns for item in coils])[coil]
-            values = np.stack([fields[item.circuit] for item in coils])[coil[:, None], mesh.elements[clip.element]]
-            phi = shape(clip.barycentric)
-            slopes = np.einsum("pni,pabkn->pabki", _corner_slopes(clip.triangle), _shape_by_corner(clip.barycentric))
-            by_chart = np.einsum("pabki,pkc->pabic", slopes, values, optimize=True)
-            weight = clip.weight * (turns / area)[:, None, None]
-            moved = -np.einsum("pab,pabic,pabn->pnic", weight, by_chart, phi, optimize=True)
-            np.add.at(nodal, mesh.elements[clip.element], moved)
-            inner, outer = radii
-            across = (clip.r - inner) / (outer - inner)
-            low, high = limits[clip.window].T
-            along = (clip.z - low[:, None, None]) / (high - low)[:, None, None]
-            stretched = np.stack(
-                [
-                    np.einsum("pab,pabc->pc", weight * share, by_chart[:, :, :, axis], optimize=True)
-                    for axis, share in (
-                        (0, clip.r * (1 - across)),
-                        (0, clip.r * across),
-                        (1, 1 - along),
-                        (1, along),
-                    )
-                ],
-                axis=1,
-            )
-            np.add.at(by_window, coil, stretched)
-            inside = np.einsum("pab,pabn,pnc->pc", clip.weight, phi, values, optimize=True)
-            np.add.at(by_turns, coil, inside / area[:, None])
-    return WindowDerivative(nodal, by_window, by_turns)
-
-
-def _corner_slopes(triangle: Floats) -> Floats:
-    """(p, 3, 2) derivative of the three barycentric coordinates by the chart's coordinates, of triangles (p, 3, 2)."""
-    following, last = np.roll(triangle, -1, axis=1), np.roll(triangle, -2, axis=1)
-    edge = last - following
-    area = edge[:, 0, 0] * edge[:, 1, 1] - edge[:, 0, 1] * edge[:, 1, 0]
-    return np.asarray(np.stack((-edge[..., 1], edge[..., 0]), axis=-1) / area[:, None, None])
-
-
-def _shape_by_corner(barycentric: Floats) -> Floats:
-    """(..., 6, 3) derivative of the shape functions by each of the three barycentric coordinates (..., 3)."""
-    a, b, c = np.moveaxis(barycentric, -1, 0)
-    zero = np.zeros_like(a)
-    rows = (
-        (4 * a - 1, zero, zero),
-        (zero, 4 * b - 1, zero),
-        (zero, zero, 4 * c - 1),
-        (4 * b, 4 * a, zero),
-        (zero, 4 * c, 4 * b),
-        (4 * c, zero, 4 * a),
-    )
-    return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
 
 
 def _within(mesh: Mesh, radii: tuple[float, float]) -> Ints:

@@ -66,7 +66,11 @@ class MappedMesh:
 
     def column(self, radius: float) -> int:
         """Number of the node column on the mesh line nearest to a radius (m)."""
-        return 2 * int(np.argmin(np.abs(self.r_lines - radius)))
+        return 2 * self.line(radius)
+
+    def line(self, radius: float) -> int:
+        """Number of the mesh line nearest to a radius (m)."""
+        return int(np.argmin(np.abs(self.r_lines - radius)))
 
 
 def mapped_mesh(
@@ -141,17 +145,14 @@ def _grid_topology(nz: int, nr: int, open_rim: bool) -> tuple[Topology, Ints]:
 def breakpoint_derivative(grid: MappedMesh, section: CrossSection, s: Floats, z: Floats) -> tuple[Floats, Floats]:
     """(k, c) and (l, c) derivatives of c scalars by the section's breakpoints in r and z.
 
-    s, z : (columns, c) and (rows, c) by the s and z of the grid's node columns and rows, with which the nodes move.
+    s, z : (lines, c) by the s and z of the grid's lines, with which its nodes move.
     """
-    by_r_lines = _from_middles(s) * grid.r_lines[:, None]  # s = r²/2
-    return (
-        _from_lines(section.r, grid.r_lines, by_r_lines),
-        _from_lines(section.z, grid.z_lines, _from_middles(z)),
-    )
+    # s = r²/2
+    return _from_lines(section.r, grid.r_lines, s * grid.r_lines[:, None]), _from_lines(section.z, grid.z_lines, z)
 
 
-def _from_middles(nodes: Floats) -> Floats:
-    """(lines, c) from (nodes, c): half of what a middle gets is each neighbour's."""
+def by_lines(nodes: Floats) -> Floats:
+    """(lines, ...) by a grid's lines, from (nodes, ...) by its rows or columns of nodes: middles are half way."""
     lines = nodes[::2].copy()
     lines[:-1] += nodes[1::2] / 2
     lines[1:] += nodes[1::2] / 2

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -63,25 +63,6 @@ class Topology:
             positive = free[self.sign[free] > 0]
             nodes[self.freedom[positive]] = positive
         return nodes
-
-    @cached_property
-    def _incidence(self) -> Any:
-        """(n, 6 m) sparse: which places of the elements are which node."""
-        from scipy.sparse import csr_array
-
-        places = np.arange(self.elements.size)
-        shape = (self.freedom.size, self.elements.size)
-        return csr_array((np.ones(places.size), (self.elements.ravel(), places)), shape=shape)
-
-    def scatter(self, share: Floats, elements: Ints | slice = slice(None)) -> Floats:
-        """(n, k) sums over the elements of their shares (m, 6, k) at their nodes; of all or of some elements."""
-        count = share.shape[-1]
-        if isinstance(elements, slice):
-            return np.asarray(self._incidence @ share.reshape(-1, count))
-        places = (6 * elements[:, None] + np.arange(6)).ravel()
-        full = np.zeros((self.elements.size, count))
-        full[places] = share.reshape(-1, count)
-        return np.asarray(self._incidence @ full)
 
     @cached_property
     def _tied(self) -> bool:

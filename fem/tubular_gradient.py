@@ -6,7 +6,7 @@ factorised, and one pass over the elements serve all figures: no matrix is facto
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from functools import cached_property
 
 import numpy as np
@@ -15,11 +15,15 @@ from fluxbore.fem.adjoint import Linearisation
 from fluxbore.fem.asymptotic import rim_derivative
 from fluxbore.fem.force import axial_force_gradient, stress_derivative
 from fluxbore.fem.functionals import Functional, on_lines
-from fluxbore.fem.linkage import WindowDerivative, window_derivative
+from fluxbore.fem.linear import Corrected
 from fluxbore.fem.mapped import breakpoint_derivative
 from fluxbore.fem.mesh import Floats
 from fluxbore.fem.reluctivity import VACUUM_RELUCTIVITY
 from fluxbore.fem.tubular import TubularSolution, space_vector
+from fluxbore.fem.window_derivative import Windows
+
+ACCURACY = 1e-10
+"""Of adjoint fields, and so of gradients: relative residual."""
 
 _CLARKE = np.exp(2j * np.pi / 3 * np.arange(3))
 
@@ -40,7 +44,11 @@ class TubularAdjoint:
 
     @cached_property
     def linearisation(self) -> Linearisation:
-        return Linearisation(self.tubular.solution)
+        return Linearisation(self.tubular.solution, self.tubular.grid)
+
+    @cached_property
+    def _windows(self) -> Windows:
+        return Windows(self.tubular.grid, self.tubular.section.coils)
 
     @property
     def thrust_constants(self) -> Floats:
@@ -60,17 +68,16 @@ class TubularAdjoint:
         derivative, by_psi = self.linearisation.tangent(x, self.response)
         annulus = tubular.section.force_annulus
         of_stress, at_radii = stress_derivative(solution, annulus, x)
-        s, z = on_lines(tubular.grid, of_stress - derivative.nodes[..., 0])
+        s, z = on_lines(tubular.grid, of_stress)
         for radius, by_s in zip(annulus, at_radii, strict=True):
-            s[tubular.grid.column(radius)] += by_s
-        load = self._windows({name: weight * self.response for name, weight in zip(self._names, weights, strict=True)})
-        moved = on_lines(tubular.grid, load.nodes[..., 0])
+            s[tubular.grid.line(radius)] += by_s
+        load = self._windows.derivative(self._by_phase(weights, self.response))
         rim = rim_derivative(tubular.grid, tubular.section.ends, x[:, None], self.response[:, None])
         return Functional(
             1.5 * abs(vector),
             axial_force_gradient(solution, annulus, x) - by_psi,
-            s + moved[0] - rim.s[:, 0],
-            z + moved[1] - rim.z[:, 0],
+            s + (load.s - derivative.s - rim.s)[:, 0],
+            z + (load.z - derivative.z - rim.z)[:, 0],
             windows=load.windows[..., 0],
             turns=load.turns[:, 0],
             reluctivity=-derivative.reluctivity[:, 0],
@@ -84,18 +91,22 @@ class TubularAdjoint:
         nodes, at_radii = stress_derivative(tubular.solution, annulus, tubular.solution.psi / 2)
         s, z = on_lines(tubular.grid, nodes)
         for radius, by_s in zip(annulus, at_radii, strict=True):
-            s[tubular.grid.column(radius)] += by_s
+            s[tubular.grid.line(radius)] += by_s
         return Functional(float(self._pull @ tubular.solution.psi / 2), self._pull, s, z)
 
     def linkage(self, weights: Sequence[float]) -> Functional:
         """A sum over the phases of weight · flux linkage (Wb)."""
-        solution, grid = self.tubular.solution, self.tubular.grid
-        scaled = [2 * np.pi * weight for weight in weights]
-        load = self._windows({name: weight * solution.psi for name, weight in zip(self._names, scaled, strict=True)})
-        s, z = on_lines(grid, load.nodes[..., 0])
-        by_psi = self._densities @ np.array(scaled)
+        solution = self.tubular.solution
+        scaled = 2 * np.pi * np.array(weights)
+        load = self._windows.derivative(self._by_phase(scaled, solution.psi))
+        by_psi = self._densities @ scaled
         return Functional(
-            float(by_psi @ solution.psi), by_psi, s, z, windows=load.windows[..., 0], turns=load.turns[:, 0]
+            float(by_psi @ solution.psi),
+            by_psi,
+            load.s[:, 0],
+            load.z[:, 0],
+            windows=load.windows[..., 0],
+            turns=load.turns[:, 0],
         )
 
     def inductance(self) -> Functional:
@@ -108,8 +119,8 @@ class TubularAdjoint:
         total = Functional(
             0.0,
             blank,
-            np.zeros(grid.r_nodes.size),
-            np.zeros(grid.z_nodes.size),
+            np.zeros(grid.r_lines.size),
+            np.zeros(grid.z_lines.size),
             windows=np.zeros((len(self.tubular.section.coils), 4)),
             turns=np.zeros(len(self.tubular.section.coils)),
             reluctivity=np.zeros(len(solution.problem.materials)),
@@ -123,13 +134,12 @@ class TubularAdjoint:
         for currents in (np.real(_CLARKE), np.imag(_CLARKE)):
             x = self.phases @ currents
             derivative, by_psi = self.linearisation.tangent(x, x)
-            load = self._windows({name: 2 * i * x for name, i in zip(self._names, currents, strict=True)})
+            load = self._windows.derivative(self._by_phase(2 * currents, x))
             rim = rim_derivative(grid, self.tubular.section.ends, x[:, None], x[:, None])
-            s, z = on_lines(grid, load.nodes[..., 0] - derivative.nodes[..., 0])
             total.value += scale * float((self._densities @ currents) @ x)
             total.by_psi -= scale * by_psi
-            total.s += scale * (s - rim.s[:, 0])
-            total.z += scale * (z - rim.z[:, 0])
+            total.s += scale * (load.s - derivative.s - rim.s)[:, 0]
+            total.z += scale * (load.z - derivative.z - rim.z)[:, 0]
             total.windows += scale * load.windows[..., 0]
             total.turns += scale * load.turns[:, 0]
             total.reluctivity -= scale * derivative.reluctivity[:, 0]
@@ -143,17 +153,15 @@ class TubularAdjoint:
         section, problem = tubular.section, tubular.solution.problem
         adjoints = self._solved(np.column_stack([item.by_psi for item in functionals]))
         residual = self.linearisation.residual(adjoints)
-        s, z = on_lines(grid, -residual.nodes)
         psi = np.broadcast_to(tubular.solution.psi[:, None], adjoints.shape)
         rim = rim_derivative(grid, section.ends, psi, adjoints)
-        s, z, poles = s - rim.s, z - rim.z, -rim.poles
+        s, z, poles = -residual.s - rim.s, -residual.z - rim.z, -rim.poles
         windows = np.zeros((len(section.coils), 4, len(functionals)))
         turns = np.zeros((len(section.coils), len(functionals)))
         currents = np.array([circuit.current for circuit in problem.circuits])
         if currents.any():
-            load = self._windows({name: i * adjoints for name, i in zip(self._names, currents, strict=True)})
-            moved = on_lines(grid, load.nodes)
-            s, z, windows, turns = s + moved[0], z + moved[1], windows + load.windows, turns + load.turns
+            load = self._windows.derivative(self._by_phase(currents, adjoints))
+            s, z, windows, turns = s + load.s, z + load.z, windows + load.windows, turns + load.turns
         reluctivity = -residual.reluctivity
         for k, item in enumerate(functionals):
             s[:, k] += item.s
@@ -183,14 +191,14 @@ class TubularAdjoint:
         solution = self.tubular.solution
         inner = solution.system.inner
         found = np.zeros(right.shape)
-        found[inner] = solution.tangent.solve(right[inner])
+        tangent = solution.tangent
+        if isinstance(tangent, Corrected):
+            found[inner] = tangent.within(right[inner], ACCURACY)
+        else:
+            found[inner] = tangent.solve(right[inner])
         return found
 
-    @property
-    def _names(self) -> list[str]:
-        return [circuit.name for circuit in self.tubular.solution.problem.circuits]
-
-    def _windows(self, fields: Mapping[str, Floats]) -> WindowDerivative:
-        """Of the circuits' densities times their nodal fields, (n,) or (n, k)."""
-        shaped = {name: field if field.ndim == 2 else field[:, None] for name, field in fields.items()}
-        return window_derivative(self.tubular.solution.problem.mesh, self.tubular.section.coils, shaped)
+    def _by_phase(self, weights: Floats, field: Floats) -> dict[str, Floats]:
+        """A nodal field times each phase's weight, by the circuit's name."""
+        circuits = self.tubular.solution.problem.circuits
+        return {circuit.name: weight * field for circuit, weight in zip(circuits, weights, strict=True)}
