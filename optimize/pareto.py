@@ -16,15 +16,17 @@ from fluxbore.optimize.evaluation import failure
 from fluxbore.optimize.evaluator import Evaluate, Evaluator
 from fluxbore.optimize.executor import Executor
 from fluxbore.optimize.journal import Journal
+from fluxbore.optimize.network_start import network_optimum
 from fluxbore.optimize.outcome import Candidate
 from fluxbore.optimize.pareto_front import Front
+from fluxbore.optimize.pareto_points import Points
 from fluxbore.optimize.pareto_result import ParetoResult
 from fluxbore.optimize.pareto_scalar import Scale
 from fluxbore.optimize.pareto_sight import Sight
 from fluxbore.optimize.pareto_table import front_table
 from fluxbore.optimize.problem import Box, box, candidate, resolve_limits
 from fluxbore.optimize.progress import Report, Tracker
-from fluxbore.optimize.search import check_study, network_optimum
+from fluxbore.optimize.search import check_study
 
 __all__ = ["front_table", "run_pareto"]
 
@@ -78,20 +80,17 @@ def run_pareto(
     sight = Sight(base, bounds, Scale(objectives), held, search.relative_tolerance / 10, gradients)
     if gradients and not sight.has_slopes(start):
         sight = replace(sight, gradients=False)
-    front = Front(
-        pareto=pareto,
-        search=search,
-        archive=archive,
-        sight=sight,
-        deadline=None if search.time_limit is None else begin + search.time_limit,
-    )
+    algorithm = search.algorithm if search.algorithm in ("MMA", "CCSAQ") else "SLSQP"
+    algorithm = algorithm if sight.gradients else "COBYLA"
+    points = Points(pareto, search, algorithm, archive, sight)
+    front = Front(points, None if search.time_limit is None else begin + search.time_limit)
     front.run(first if inside else first[1:], done if inside else done[1:])
     return ParetoResult(
         objective=objective,
         against=pareto.against,
         method=pareto.method,
         start=start,
-        points=front.points,
+        points=points.listed(),
         history=tuple(archive.history) if inside else (start, *archive.history),
         reference=front.reference,
         hypervolume=front.hypervolume,
@@ -100,6 +99,7 @@ def run_pareto(
         ending=front.ending,
         reused=archive.reused,
         conflicting=front.conflicting,
+        algorithm=algorithm,
     )
 
 

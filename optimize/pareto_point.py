@@ -16,6 +16,7 @@ from fluxbore.optimize.pareto_scalar import Scalarisation
 from fluxbore.optimize.pareto_sight import Sight
 from fluxbore.optimize.pareto_slope import Conditions, met_at
 from fluxbore.optimize.problem import Point, show_limit, violation
+from fluxbore.optimize.slopes import NoSlopesError
 
 CALLS = 1000
 """Points that one run of NLopt may ask for, repeated ones included."""
@@ -27,9 +28,9 @@ conditions are not met."""
 RESIDUAL = 10.0
 """The residual that is good enough, in tolerances."""
 
-_MISS = 10.0
-_UNKNOWN = 1e3
-_LEAST_SHARE = 1e-3
+_MISS = 10.0  # what a relative miss weighs against the loss, where a start is chosen
+_UNKNOWN = 1e3  # the miss of a design whose limits are not known
+_LEAST_SHARE = 1e-3  # of the loss: less would leave no digits to an upright front
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,6 +56,7 @@ class PointSearch:
     """
 
     problem: Scalarisation
+    algorithm: str
     sight: Sight
     archive: Archive
     budget: int
@@ -81,22 +83,40 @@ class PointSearch:
         return Found(best, met, self.reason if best is not None else self._shortfall(), self.asked)
 
     def _descend(self, ask: Ask, start: Point, step: float) -> None:
-        """SLSQP, again from its best design until the figures' norms hold and the optimality conditions are met."""
-        point = start
-        for _ in range(ROUNDS):
-            kappas, before = self.sight.kappas(self._ask(ask, point)), self.asked
-            ending = self._slope_down(ask, point, step, kappas)
-            self.reason = ending.reason
-            if ending.stopped_by is not None:
-                raise ending.stopped_by
-            best = choose(self.problem, self.sight, self.archive, self.tolerance)
-            if best is None or self.asked == before:
-                return
-            point, moved = self.archive.box.point(best.values), self.sight.kappas(best)
-            held = all(abs(moved[name] / kappa - 1) <= self.tolerance for name, kappa in kappas.items())
-            met = met_at(self.problem, self.sight, best)
-            if held and met is not None and met.residual <= RESIDUAL * self.tolerance:
-                return
+        """SLSQP, again from its best design until the figures' norms hold and the optimality conditions are met.
+
+        Where a design lacks a derivative that the others have, COBYLA goes on.
+        """
+        point = self._sound(ask, start)
+        try:
+            for _ in range(ROUNDS):
+                kappas, before = self.sight.kappas(self._ask(ask, point)), self.asked
+                ending = self._slope_down(ask, point, step, kappas)
+                self.reason = ending.reason
+                if ending.stopped_by is not None:
+                    raise ending.stopped_by
+                best = choose(self.problem, self.sight, self.archive, self.tolerance)
+                if best is None or self.asked == before or self._settled(best, kappas):
+                    return
+                point = self.archive.box.point(best.values)
+        except NoSlopesError as error:
+            self.sight = replace(self.sight, gradients=False)
+            self._probe(ask, point, step)
+            self.reason += f" A design without the derivatives of {error} was met, so COBYLA went on."
+
+    def _settled(self, best: Candidate, kappas: Mapping[str, float]) -> bool:
+        moved = self.sight.kappas(best)
+        if any(abs(moved[name] / kappa - 1) > self.tolerance for name, kappa in kappas.items()):
+            return False
+        met = met_at(self.problem, self.sight, best)
+        return met is not None and met.residual <= RESIDUAL * self.tolerance
+
+    def _sound(self, ask: Ask, start: Point) -> Point:
+        """The start, or the best of the archive where the start has no figures."""
+        if self.sight.scale.losses(self._ask(ask, start)) is not None:
+            return start
+        made = nearest(self.problem, self.sight, self.archive)
+        return start if made is None else self.archive.box.point(made.values)
 
     def _slope_down(self, ask: Ask, start: Point, step: float, kappas: Mapping[str, float]) -> Ending:
         """One run of SLSQP.
@@ -126,6 +146,7 @@ class PointSearch:
             (*start, *slack),
             lower,
             upper,
+            algorithm=self.algorithm,
             objective_tolerance=self.tolerance / 10,
             variable_tolerance=self.tolerance / 10,
             miss_tolerance=self.tolerance / 100,

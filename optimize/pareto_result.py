@@ -54,6 +54,7 @@ class ParetoResult:
     reused : how many designs of the history stood in the journal already; seconds are this run's.
     stop_reason : a sentence; ending : what sort of end that was, whatever had been found by then.
     conflicting : False where one design is the best in both objectives.
+    algorithm : the search that ran, where the study asks for "auto"; COBYLA where the model gives no gradients.
     """
 
     objective: Objective
@@ -69,6 +70,7 @@ class ParetoResult:
     ending: SearchEnding = "done"
     reused: int = 0
     conflicting: bool = True
+    algorithm: str = ""
 
     @property
     def front(self) -> tuple[FrontPoint, ...]:

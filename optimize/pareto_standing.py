@@ -57,3 +57,13 @@ def _dominates(one: Losses, other: Losses, tolerance: float) -> bool:
     """Whether the first is better in one loss by more than the tolerance and in the other one no worse."""
     gains = [b - a for a, b in zip(one, other, strict=True)]
     return max(gains) > tolerance and min(gains) >= 0
+
+
+def summary(points: Sequence[FrontPoint]) -> str:
+    """How many points the front has, and what became of the others, in a sentence."""
+    standings: list[str] = [point.standing for point in points]
+    said = {"dominated": "dominated by others", "repeated": "found twice", "failed": "without a feasible design"}
+    counts = {what: standings.count(name) for name, what in said.items() if name in standings}
+    words = [f"{count} {'is' if count == 1 else 'are'} {what}" for what, count in counts.items()]
+    text = f"The front has {standings.count('front')} of the {len(standings)} points asked for"
+    return f"{text}; {', '.join(words)}." if words else f"{text}."
