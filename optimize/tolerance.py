@@ -30,8 +30,9 @@ from fluxbore.optimize.progress import Report, Tracker
 from fluxbore.optimize.tolerance_checks import Checks, run_checks
 from fluxbore.optimize.tolerance_intervals import corrected_share, quantile_interval, share_interval
 from fluxbore.optimize.tolerance_model import LinearModel, Subject, held_keys, linear_model, production_design
-from fluxbore.optimize.tolerance_result import QUANTILES, FigureSpread, Requirement, ToleranceResult
+from fluxbore.optimize.tolerance_result import QUANTILES, FigureSpread, Interval, Requirement, ToleranceResult
 from fluxbore.optimize.tolerance_scatter import deviations
+from fluxbore.optimize.tolerance_shift import shifted_yield
 from fluxbore.optimize.tolerance_warnings import warnings
 from fluxbore.optimize.tolerance_yield import Scatter, expected_yield, meets, scatter
 
@@ -98,6 +99,7 @@ def run_tolerance(
         failures=checks.failures,
         checked=checked,
         direct=direct,
+        shifted=_shifted(linear, range(len(linear.limits)), checks, alone=False),
         warnings=warnings(spec, spreads, requirements, simulated, direct, production),
         evaluations=model.evaluations + checks.evaluations,
         reused=model.reused + checks.reused,
@@ -158,14 +160,22 @@ def _requirement(linear: _Linear, column: int, checks: Checks) -> Requirement:
     room = limit.limit - subject.mean if limit.sense == "<=" else subject.mean - limit.limit
     others = np.delete(linear.verdicts, column, axis=1).all(axis=1) & linear.built.built
     alone = meets(limit, subject.values(linear.samples))
-    met = int(alone.sum())
     count = len(checks.full)
     return Requirement(
         limit=limit,
         nominal=subject.nominal,
         margin=room / subject.total.sigma if subject.scatters else np.copysign(np.inf, room),
         expected=expected_yield(limit, subject),
-        simulated=share_interval(met, len(alone)),
+        simulated=share_interval(int(alone.sum()), len(alone)),
         cost=float(np.mean(others) - np.mean(linear.good)),
         checked=corrected_share(alone, alone[:count], checks.full[:, column]) if count else None,
+        shifted=_shifted(linear, [column], checks, alone=True),
     )
+
+
+def _shifted(linear: _Linear, columns: Sequence[int], checks: Checks, *, alone: bool) -> Interval | None:
+    """The yield of these limits; what cannot be built counts among all of them, and not against one alone."""
+    limits = [linear.limits[column] for column in columns]
+    subjects = [linear.model.subjects[limit.subject] for limit in limits]
+    built = np.ones_like(linear.built.built) if alone else linear.built.built
+    return shifted_yield(limits, subjects, linear.built.deviations, built, checks)

@@ -41,9 +41,7 @@ def backed_off(limits: Sequence[Limit], result: ToleranceResult, target: float) 
     sample = deviations(result.production.tolerances, result.examined, result.production.seed)
     shifts = [margin.shifts(sample) for margin in margins]
     buildable = 1 - sum(item.count for item in result.rejects) / result.examined
-    aim = target
-    if result.checked is not None:
-        aim += max(0.0, result.simulated.value - result.checked.value)
+    aim = target + max(0.0, result.simulated.value - result.best_estimate.value)
 
     def enough(k: float) -> bool:
         rooms = [max(margin.room, margin.off(float(ndtr(k)))) for margin in margins]

@@ -69,7 +69,7 @@ class Requirement:
 
     margin : room between the mean and the limit in standard deviations, negative beyond the limit, infinite where
     nothing scatters. expected : share that meets it by the linear model, without sampling. simulated : the same
-    counted in the samples. checked : corrected by the samples computed in full.
+    counted in the samples. checked : corrected by the samples computed in full. shifted : see `ToleranceResult`.
     cost : what the yield of all limits together would gain if this one were dropped.
     """
 
@@ -80,6 +80,7 @@ class Requirement:
     simulated: Interval
     cost: float
     checked: Interval | None = None
+    shifted: Interval | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,7 +114,8 @@ class ToleranceResult:
     figures : the objective's first, then those of the limits, then the rest. requirements : in the study's order.
     simulated : yield of all limits together in the samples of the linear model, among them those that cannot be built.
     examined : how many samples that is. checked : the same corrected by the samples computed in full. direct : the
-    plain count in those.
+    plain count in those. shifted : the linear model moved by its mean error in those, which presumes that the error is
+    alike in all samples; None where it is too large for that, see `fluxbore.optimize.tolerance_shift`.
     effects : the most harmful tolerance first.
     rejects : of the samples. failures : of those computed in full, which count as rejects too.
     warnings : whole sentences. reused : evaluations that the journal held, of ``evaluations``; seconds are this run's.
@@ -132,6 +134,7 @@ class ToleranceResult:
     failures: tuple[Reject, ...] = ()
     checked: Interval | None = None
     direct: Interval | None = None
+    shifted: Interval | None = None
     warnings: tuple[str, ...] = ()
     evaluations: int = 0
     reused: int = 0
@@ -139,8 +142,8 @@ class ToleranceResult:
 
     @property
     def best_estimate(self) -> Interval:
-        """The yield by the best that was computed."""
-        return self.checked or self.simulated
+        """The yield by the best that was computed: ``shifted`` where the linear model is good enough for it."""
+        return self.shifted or self.checked or self.simulated
 
     def figure(self, subject: str) -> FigureSpread | None:
         return next((item for item in self.figures if item.subject == subject), None)

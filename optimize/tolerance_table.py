@@ -33,6 +33,7 @@ def _lines(result: ToleranceResult) -> Iterator[_Line]:
         ("simulated", result.simulated),
         ("checked", result.checked),
         ("direct", result.direct),
+        ("shifted", result.shifted),
     ):
         if interval is not None:
             yield "yield", "", "", quantity, *_interval(interval), ""
@@ -64,6 +65,8 @@ def _requirement(item: Requirement) -> Iterator[_Line]:
     yield "limit", name, "", "simulated yield", *_interval(item.simulated), ""
     if item.checked is not None:
         yield "limit", name, "", "checked yield", *_interval(item.checked), ""
+    if item.shifted is not None:
+        yield "limit", name, "", "shifted yield", *_interval(item.shifted), ""
     yield "limit", name, "", "cost in yield", item.cost, "", "", ""
 
 

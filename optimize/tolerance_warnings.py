@@ -11,11 +11,8 @@ from fluxbore.design.spec import Spec
 from fluxbore.design.study import Production
 from fluxbore.optimize.problem import show_limit
 from fluxbore.optimize.tolerance_result import FigureSpread, Interval, Requirement
+from fluxbore.optimize.tolerance_shift import good_enough
 from fluxbore.optimize.tolerance_yield import meets
-
-LINEAR_ERROR = 0.1
-"""Root mean square of full minus linear, in standard deviations, from which the linear model is not good enough: at a
-limit two standard deviations off it moves the yield by half a per cent."""
 
 
 def warnings(
@@ -38,7 +35,7 @@ def warnings(
         if spread.subject not in judged or spread.checked is None:
             continue
         error = spread.checked.error
-        if error > LINEAR_ERROR * spread.sigma and error > 1e-12 * abs(spread.nominal):
+        if not good_enough(error, spread.sigma, spread.nominal):
             size = f"{error / spread.sigma:.2g} of its standard deviation" if spread.sigma else "all of its scatter"
             found.append(
                 f"The linear model of {spread.subject} is not good enough: it misses the samples computed in full by "

@@ -33,7 +33,7 @@ def robust(spec, model=models.hill, journal=None) -> RobustResult:
 def test_one_limit_backs_off_by_k_sigma():
     """For 99 % of normal scatter k is 2.326; a little more as the samples' lower confidence limit must reach it."""
     limits = (Limit("stray_field", "<=", 3.0),)
-    result = analysed(production(0.3, 0.6, samples=20_000), limits)
+    result = analysed(production(0.3, 0.6, samples=10_000), limits)
     [moved] = backed_off(limits, result, 0.99)
     sigma = math.hypot(0.2, 0.2)
     assert 2.31 < (3.0 - moved.limit) / sigma < 2.45
@@ -42,7 +42,7 @@ def test_one_limit_backs_off_by_k_sigma():
 
 def test_a_lower_limit_moves_up():
     limits = (Limit("force_constant", ">=", 12.0),)
-    [moved] = backed_off(limits, analysed(production(0.3, 0.6, samples=20_000), limits), 0.9)
+    [moved] = backed_off(limits, analysed(production(0.3, 0.6, samples=10_000), limits), 0.9)
     assert 1.28 < (moved.limit - 12.0) / math.sqrt(0.13) < 1.35
 
 
@@ -56,16 +56,16 @@ def test_uniform_scatter_backs_off_by_its_width_at_most():
 def test_two_limits_that_bind_back_off_further_than_one():
     """x and y apart, both at their limits: each must hold with the root of 90 %."""
     one, two = (Limit(X, "<=", 1.0),), (Limit(X, "<=", 1.0), Limit(Y, "<=", 1.0))
-    made = production(0.3, 0.3, samples=20_000)
+    made = production(0.3, 0.3, samples=10_000)
     alone, both = (backed_off(limits, analysed(made, limits), 0.9)[0].limit for limits in (one, two))
-    assert normal_share((1 - alone) / 0.1) == pytest.approx(0.9, abs=0.008)
-    assert normal_share((1 - both) / 0.1) == pytest.approx(math.sqrt(0.9), abs=0.008)
+    assert normal_share((1 - alone) / 0.1) == pytest.approx(0.9, abs=0.011)
+    assert normal_share((1 - both) / 0.1) == pytest.approx(math.sqrt(0.9), abs=0.011)
 
 
 def test_limits_that_fail_together_are_not_paid_for_twice():
     """The stray field is 2 x + 1 where x alone scatters: a limit on x that fails in the same actuators is free."""
     limits = (Limit("stray_field", "<=", 3.0), Limit(X, "<=", 1.0))
-    made = production(0.3, samples=20_000)
+    made = production(0.3, samples=10_000)
     alone = backed_off(limits[:1], analysed(made, limits[:1]), 0.9)[0]
     assert backed_off(limits, analysed(made, limits), 0.9)[0].limit == pytest.approx(alone.limit, abs=1e-6)
 
@@ -90,7 +90,7 @@ def test_the_search_reaches_its_yield_and_names_the_price():
     first, best = result.rounds[0], result.best
     assert first.production.simulated.value == pytest.approx(0.5, abs=0.03)
     assert result.reached
-    assert 0.95 <= best.production.simulated.value < 0.965
+    assert 0.95 <= best.production.simulated.value < 0.97
     assert result.price == pytest.approx(first.objective - best.objective)
     assert "The yield reached" in result.stop_reason
     assert "asked for 95.00%" in result.stop_reason

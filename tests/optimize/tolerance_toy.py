@@ -63,7 +63,7 @@ def hill(design, fidelity="fem", gradient=()):
     return evaluation(figures, rows, gradient, fidelity=fidelity)
 
 
-def hill_study(target=0.95, *, limit=2.0, checks=0, width=0.3, samples=4000, floor=None):
+def hill_study(target=0.95, *, limit=2.0, checks=0, width=0.3, samples=2000, floor=None):
     """Climb `hill` under a stray field that production makes scatter."""
     constraints = [Constraint("stray_field", upper=limit)]
     if floor is not None:
