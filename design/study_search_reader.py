@@ -77,6 +77,9 @@ def read_pareto(raw: object, study: Study) -> Pareto:
         )
     if not study.variables:
         raise SpecError("study.variables must be given for study.pareto; got none.")
+    counts = [variable.key for variable in study.variables if variable.integer]
+    if counts:
+        raise SpecError(f"study.variables must be continuous for study.pareto; got the count {counts[0]}.")
     if against.figure == study.objective.figure:
         raise SpecError(f"study.pareto.against must differ from study.objective; got {against.figure} for both.")
     return Pareto(against, **settings)

@@ -11,7 +11,19 @@ import fluxbore
 from fluxbore.design.spec_file import template
 
 TOP = Path(__file__).parents[1]
-VERBS = ("design", "evaluate", "export", "load", "optimize", "report", "solve", "sweep")
+VERBS = (
+    "design",
+    "evaluate",
+    "export",
+    "load",
+    "optimize",
+    "pareto",
+    "report",
+    "robust",
+    "solve",
+    "sweep",
+    "tolerance",
+)
 
 SCRIPT = """
 from pathlib import Path
@@ -28,6 +40,11 @@ def best(path: Path) -> float:
     page: Path = fluxbore.report(spec, "report.html", picture=False).files[0]
     solution: FemmSolution = fluxbore.solve("model.fem", groups=[1], changes={"circuit.coil.current": 2.0})
     pull: tuple[float, float] = solution.force(1).value.force
+    slopes = fluxbore.evaluate(spec, gradient=["actuator.mover.ring_width"]).gradient or {}
+    front: fluxbore.ParetoResult = fluxbore.pareto(spec, "out", scheduler="tcp://127.0.0.1:8786", time_limit=60.0)
+    made: fluxbore.ToleranceResult = fluxbore.tolerance(spec, fidelity="network")
+    reached: bool = fluxbore.robust(spec).reached
+    print(slopes["force_constant"]["actuator.mover.ring_width"], front.front, made.best_estimate.low, reached)
     found = fluxbore.optimize(spec, "out", workers=2, force=True)
     chosen = fluxbore.design(spec, "out").evaluation
     print(files, page, pull, found.chosen, sweeps[0].rows[0].values, chosen.performance.force_constant)

@@ -26,28 +26,36 @@ __all__ = [
     "Evaluation",
     "FemmSolution",
     "FluxboreError",
+    "ParetoResult",
     "Performance",
+    "RobustResult",
     "SearchResult",
     "Spec",
     "SweepResult",
+    "ToleranceResult",
     "design",
     "evaluate",
     "export",
     "load",
     "optimize",
+    "pareto",
     "report",
+    "robust",
     "solve",
     "sweep",
+    "tolerance",
 ]
 
 if TYPE_CHECKING:
-    from fluxbore.api import design, evaluate, export, load, optimize, report, sweep
+    from fluxbore.api import design, evaluate, export, load, optimize, pareto, report, robust, sweep, tolerance
     from fluxbore.design.errors import FluxboreError
     from fluxbore.design.performance import Performance
     from fluxbore.design.spec import Spec
     from fluxbore.fem.femm_solution import FemmSolution
     from fluxbore.optimize.evaluation import Evaluation
     from fluxbore.optimize.outcome import SearchResult, SweepResult
+    from fluxbore.optimize.pareto_result import ParetoResult
+    from fluxbore.optimize.tolerance_result import RobustResult, ToleranceResult
     from fluxbore.solving import solve
 
 _HOMES = {
@@ -58,6 +66,9 @@ _HOMES = {
     "Evaluation": "fluxbore.optimize.evaluation",
     "SearchResult": "fluxbore.optimize.outcome",
     "SweepResult": "fluxbore.optimize.outcome",
+    "ParetoResult": "fluxbore.optimize.pareto_result",
+    "ToleranceResult": "fluxbore.optimize.tolerance_result",
+    "RobustResult": "fluxbore.optimize.tolerance_result",
     "solve": "fluxbore.solving",
 }
 

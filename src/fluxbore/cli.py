@@ -168,7 +168,9 @@ def _answer(answer: study_command.Answer) -> int:
     if isinstance(answer.content, str):
         print(answer.content)
     else:
-        _print_json(answer.content)
+        from fluxbore.plain_values import finite
+
+        _print_json(finite(answer.content))
     return answer.status
 
 

@@ -9,7 +9,9 @@ from fluxbore.design.spec import Spec
 from fluxbore.design.study import Constraint
 from fluxbore.optimize.evaluation import OK, Evaluation
 from fluxbore.optimize.outcome import Candidate, Check, SearchResult, SweepResult
+from fluxbore.optimize.pareto_result import ParetoResult
 from fluxbore.optimize.problem import check, resolve_limits, show_limit
+from fluxbore.optimize.tolerance_result import RobustResult, ToleranceResult
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,6 +22,7 @@ class DesignResult:
     checks : the study's limits held against that design.
     status : "ok", or in a few words why the result is not one to build: "no feasible design", "not converged", ...
     reasons : the same in sentences. warnings : what could not be made, such as STEP files without libGL.
+    front, tolerance, robust : what the study asked for besides; of a robust search ``search`` is the round chosen.
     """
 
     spec: Spec
@@ -31,10 +34,20 @@ class DesignResult:
     sweeps: tuple[SweepResult, ...] = ()
     files: tuple[Path, ...] = ()
     warnings: tuple[str, ...] = ()
+    front: ParetoResult | None = None
+    tolerance: ToleranceResult | None = None
+    robust: RobustResult | None = None
 
     @property
     def ok(self) -> bool:
         return self.status == OK
+
+    @property
+    def history(self) -> tuple[Candidate, ...]:
+        """Every design that the search asked for, in all its rounds."""
+        if self.robust is not None:
+            return tuple(step for item in self.robust.rounds for step in item.search.history)
+        return self.search.history if self.search is not None else ()
 
 
 def searched(spec: Spec, search: SearchResult) -> DesignResult:

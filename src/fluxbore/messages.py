@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import asdict
 from typing import Any
 
 from fluxbore.design.performance import FIGURES, show_figure
 from fluxbore.design.spec import Spec
-from fluxbore.design_result import DesignResult
 from fluxbore.optimize.evaluation import Evaluation, to_plain
 from fluxbore.optimize.outcome import SweepResult
-from fluxbore.search_messages import search_plain, search_text
-from fluxbore.value_text import show_key, show_subject
+from fluxbore.value_text import route, show_key, show_subject, tolerance_size
 
 
 def spec_plain(spec: Spec) -> dict[str, Any]:
@@ -26,6 +25,8 @@ def spec_plain(spec: Spec) -> dict[str, Any]:
         "study": {
             "variables": [variable.key for variable in spec.study.variables],
             "sweeps": {sweep.name: sweep.size for sweep in spec.study.sweeps},
+            "pareto": asdict(spec.study.pareto) if spec.study.pareto is not None else None,
+            "production": asdict(spec.study.production) if spec.study.production is not None else None,
         },
     }
 
@@ -52,9 +53,9 @@ def _study_lines(spec: Spec) -> list[str]:
     for item in study.variables:
         key = spec.kind.known(item.key)
         step = f" in steps of {key.difference.show(item.resolution)}" if item.resolution is not None else ""
+        lower, upper = (int(bound) if item.integer else bound for bound in (item.lower, item.upper))
         lines.append(
-            f"vary {item.key} from {show_key(spec, item.key, item.lower)} to "
-            f"{show_key(spec, item.key, item.upper)}{step}"
+            f"vary {item.key} from {show_key(spec, item.key, lower)} to {show_key(spec, item.key, upper)}{step}"
         )
     for limit in study.constraints:
         for word, value in (("at most", limit.upper), ("at least", limit.lower)):
@@ -63,6 +64,16 @@ def _study_lines(spec: Spec) -> list[str]:
                 lines.append(f"keep {limit.subject} {word} {shown}")
     lines += [f"hold {key}" for key in study.hold]
     lines += [f"sweep {sweep.name}: {sweep.size} designs" for sweep in study.sweeps]
+    if study.pareto is not None:
+        front, goal = study.pareto, study.pareto.against
+        verb = "maximise" if goal.maximise else "minimise"
+        lines.append(f"front against {verb} {goal.figure}: {front.points} points by {front.method}")
+    if study.production is not None:
+        for tolerance in study.production.tolerances:
+            size = tolerance_size(tolerance, spec.kind.known(tolerance.key))
+            lines.append(f"make {tolerance.key} within {size}, {tolerance.distribution}")
+        if study.production.target_yield is not None:
+            lines.append(f"reach a yield of {100 * study.production.target_yield:g} %")
     return ["", *lines] if lines else []
 
 
@@ -71,12 +82,12 @@ def evaluation_plain(spec: Spec, evaluation: Evaluation) -> dict[str, Any]:
     return {"name": spec.word("actuator.name"), "specification": spec.fingerprint(), **to_plain(evaluation)}
 
 
-def evaluation_text(evaluation: Evaluation) -> str:
+def evaluation_text(spec: Spec, evaluation: Evaluation) -> str:
     """The figures as a table, or why there are none."""
     if not evaluation.ok:
         return f"{evaluation.status}: " + " ".join(evaluation.reasons)
     width = max(len(name) for name in FIGURES)
-    lines = [f"By {'finite elements' if evaluation.fidelity == 'fem' else 'the magnetic network'}:"]
+    lines = [f"By {route(spec, evaluation.fidelity)}:"]
     for name in FIGURES:
         value = getattr(evaluation.performance, name)
         if value is not None:
@@ -143,26 +154,3 @@ def sweeps_text(spec: Spec, results: Sequence[SweepResult]) -> str:
             published = show_key(spec, result.sweep.axes[0].key, result.sweep.reference)
             lines.append(f"  published optimum: {published} ({result.sweep.reference_source or 'no source given'})")
     return "\n".join(lines)
-
-
-def design_plain(result: DesignResult) -> dict[str, Any]:
-    """The whole run."""
-    reasons = list(result.reasons)
-    if result.search is not None and result.search.chosen is None:
-        reasons = search_plain(result.search)["reasons"]
-    return {
-        "status": result.status,
-        "reasons": reasons,
-        "performance": to_plain(result.evaluation)["performance"],
-        "search": search_plain(result.search) if result.search is not None else None,
-        "files": [str(path) for path in result.files],
-        "warnings": [*result.evaluation.warnings, *result.warnings],
-    }
-
-
-def design_text(spec: Spec, result: DesignResult) -> str:
-    """The search's result, or the design's figures, what is wrong with it, and where the files are."""
-    text = search_text(spec, result.search) if result.search is not None else evaluation_text(result.evaluation)
-    bad = [] if result.ok or result.search is not None else [f"{result.status}: {' '.join(result.reasons)}"]
-    top = [str(path) for path in result.files if path.parent.name != "parts"]
-    return "\n".join([text, *bad, "", *top])

@@ -211,7 +211,8 @@ def _recorded(line: bytes) -> tuple[Values, Row] | None:
 
 def _row(task: tuple[ModelSweep, Values]) -> Row:
     """One row's figures, or why there are none."""
-    from fluxbore.solution_messages import finite, solution_plain
+    from fluxbore.plain_values import finite
+    from fluxbore.solution_messages import solution_plain
     from fluxbore.solving import solve
 
     sweep, values = task

@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 import re
+from dataclasses import asdict
 from typing import Any
 
-from fluxbore.design.performance import show_figure
+from fluxbore.design.performance import FIGURES, show_figure
 from fluxbore.design.spec import Spec
+from fluxbore.optimality_messages import conflict_lines, optimality_lines
 from fluxbore.optimize.evaluation import to_plain
 from fluxbore.optimize.outcome import Candidate, Check, SearchResult
-from fluxbore.value_text import show_key, show_subject
+from fluxbore.value_text import route, show_key, show_subject
+
+TOLD = ("force_constant", "motor_constant", "stray_field", "yoke_flux_density", "moving_mass", "total_mass")
+"""Figures that are told of any search, besides those that it is about."""
 
 
 def candidate_plain(candidate: Candidate | None) -> dict[str, Any] | None:
@@ -47,11 +52,16 @@ def search_plain(result: SearchResult) -> dict[str, Any]:
         "status": "no feasible design" if chosen is None else "ok" if result.ending == "done" else result.ending,
         "reasons": [] if chosen is not None and result.ending == "done" else [result.stop_reason],
         "stop_reason": result.stop_reason,
+        "ending": result.ending,
+        "algorithm": result.algorithm,
         "evaluations": len(result.history),
         "start": candidate_plain(result.start),
         "network_start": candidate_plain(result.network_start),
         "best": candidate_plain(result.best),
+        "rounded": candidate_plain(result.rounded),
         "chosen": candidate_plain(chosen),
+        "optimality": asdict(result.optimality) if result.optimality is not None else None,
+        "conflict": asdict(result.conflict) if result.conflict is not None else None,
         "history": [
             {"values": dict(step.values), "objective": step.objective, "feasible": step.feasible}
             for step in result.history
@@ -77,21 +87,53 @@ def _failures(result: SearchResult) -> list[str]:
 def search_text(spec: Spec, result: SearchResult) -> str:
     """Start and chosen design side by side, and why the search ended."""
     cost = f"{result.reused} of them from the journal" if result.replayed else f"in {result.seconds:.0f} s"
-    lines = [result.stop_reason, f"Search: {len(result.history)} designs by finite elements, {cost}."]
+    lines = [
+        result.stop_reason,
+        f"Search{_algorithm(result)}: {len(result.history)} designs by {route(spec, 'fem')}, {cost}.",
+    ]
     lines += _failures(result)
     chosen = result.chosen
     if chosen is None:
-        return "\n".join([*lines, "No feasible design was found."])
+        conflict = conflict_lines(spec, result.conflict) if result.conflict is not None else []
+        return "\n".join([*lines, "No feasible design was found.", *conflict])
     if dict(chosen.values) == dict(result.start.values):
         lines.append("Nothing better than the start was found.")
     lines.append("")
     for key, value in chosen.values.items():
         lines.append(f"{key}: {show_key(spec, key, result.start.values[key])} -> {show_key(spec, key, value)}")
-    for name in ("force_constant", "motor_constant", "stray_field", "yoke_flux_density", "moving_mass", "total_mass"):
+    limited = [check.limit.subject for check in chosen.checks if check.limit.subject in FIGURES]
+    goal = [spec.study.objective.figure] if spec.study.objective is not None else []
+    for name in dict.fromkeys([*goal, *limited, *TOLD]):
         before, after = (getattr(item.evaluation.performance, name) for item in (result.start, chosen))
-        lines.append(f"{name}: {show_figure(name, before)} -> {show_figure(name, after)}")
+        if before is not None or after is not None:
+            lines.append(f"{name}: {show_figure(name, before)} -> {show_figure(name, after)}")
     for check in chosen.checks:
         state = "active" if check.active else "held"
         found = show_subject(check.limit.subject, check.value) if check.value is not None else "no value"
         lines.append(f"{_limit(check)}: {found}, {state}")
+    lines += _rounding(spec, result)
+    if result.optimality is not None and spec.study.objective is not None:
+        lines += ["", *optimality_lines(spec, spec.study.objective, result.optimality)]
     return "\n".join(lines)
+
+
+def _algorithm(result: SearchResult) -> str:
+    return f" by {result.algorithm}" if result.algorithm else ""
+
+
+def _rounding(spec: Spec, result: SearchResult) -> list[str]:
+    """What the workshop's steps cost against the best design between them."""
+    best, rounded = result.best, result.rounded
+    if best is None or rounded is None or spec.study.objective is None:
+        return []
+    if rounded is not result.chosen:
+        missed = [_limit(check) for check in rounded.checks if not check.satisfied]
+        why = f"misses {' and '.join(missed)}" if missed else " ".join(rounded.evaluation.reasons)
+        return ["", f"Not rounded to the workshop's steps: the rounded design {why}."]
+    figure = spec.study.objective.figure
+    before, after = best.objective, rounded.objective
+    if before is None or after is None:
+        return []
+    then = f"{show_figure(figure, before)} -> {show_figure(figure, after)}"
+    share = f" ({100 * (after / before - 1):+.2g} %)" if before else ""
+    return ["", f"Rounded to the workshop's steps: {figure} {then}{share}"]

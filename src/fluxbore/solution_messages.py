@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from math import isfinite, pi
+from math import pi
 from typing import Any
 
 import numpy as np
@@ -159,15 +159,6 @@ def warnings(
                 "between bodies in contact is not defined."
             )
     return found
-
-
-def finite(value: Any) -> Any:
-    """The value with None for what is not finite, of which JSON knows nothing."""
-    if isinstance(value, float):
-        return value if isfinite(value) else None
-    if isinstance(value, Mapping):
-        return {name: finite(item) for name, item in value.items()}
-    return [finite(item) for item in value] if isinstance(value, (list, tuple)) else value
 
 
 def solution_text(plain: Mapping[str, Any]) -> str:

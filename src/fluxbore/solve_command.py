@@ -82,7 +82,8 @@ def joined(arguments: Sequence[str]) -> list[str]:
 def solve(options: argparse.Namespace) -> tuple[bool, dict[str, Any] | str]:
     """Do what the options ask. Whether the result is valid, and what is to be printed: an object or a text."""
     from fluxbore import solving
-    from fluxbore.solution_messages import finite, solution_plain, solution_text
+    from fluxbore.plain_values import finite
+    from fluxbore.solution_messages import solution_plain, solution_text
 
     _check(options)
     if options.sweep:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import math
+import re
 from typing import TYPE_CHECKING
 
 from fluxbore.design.errors import shown
@@ -39,6 +40,9 @@ def with_run(parser: argparse.ArgumentParser, *, folder_needed: bool) -> argpars
     )
     parser.add_argument("--workers", type=count, metavar="N", help="processes; default: one a core")
     parser.add_argument(
+        "--scheduler", type=address, metavar="tcp://HOST:PORT", help="of a Dask cluster, whose workers compute instead"
+    )
+    parser.add_argument(
         "--time-limit", type=seconds, metavar="S", help="seconds after which one design is given up; default: 1800"
     )
     parser.add_argument("--force", action="store_true", help="replace the results of another specification in DIR")
@@ -69,6 +73,13 @@ def seconds(text: str) -> float:
     if not (math.isfinite(value) and value > 0):
         raise argparse.ArgumentTypeError(f"must be a number of seconds above 0; got {shown(text)}")
     return value
+
+
+def address(text: str) -> str:
+    """Where a scheduler listens."""
+    if not re.fullmatch(r"[a-z]+://[^\s/]+", text):
+        raise argparse.ArgumentTypeError(f"must be an address such as tcp://host:8786; got {shown(text)}")
+    return text
 
 
 def path_name(text: str) -> str:

@@ -39,6 +39,11 @@ def add_to(add: Add) -> None:
 
     with_fidelity(with_run(add("sweep", _sweep, "compute the study's grids of designs"), folder_needed=False))
     with_run(add("optimize", _optimize, "search for the study's best design"), folder_needed=False)
+    with_run(add("pareto", _pareto, "look for the front between the study's two objectives"), folder_needed=False)
+    with_fidelity(
+        with_run(add("tolerance", _tolerance, "say what comes off the line within the tolerances"), folder_needed=False)
+    )
+    with_run(add("robust", _robust, "search for the best design that reaches the yield"), folder_needed=False)
 
     report = with_spec(add("report", _report, "write the report of the specification's own design"))
     report.add_argument(
@@ -48,12 +53,12 @@ def add_to(add: Add) -> None:
     report.add_argument("--force", action="store_true", help="replace the file where it exists")
     report.add_argument("--json", action="store_true", help="print JSON")
 
-    design = with_run(add("design", _design, "sweeps, search, STEP files and report in one"), folder_needed=True)
+    design = with_run(add("design", _design, "the whole study, STEP files and report in one"), folder_needed=True)
     design.add_argument("--no-picture", action="store_true", help="do without the rendered picture")
 
 
 def _evaluate(options: argparse.Namespace) -> Answer:
-    from fluxbore.api import evaluate
+    from fluxbore.evaluating import evaluate
     from fluxbore.gradient_messages import gradient_text
     from fluxbore.messages import evaluation_plain, evaluation_text
 
@@ -63,7 +68,7 @@ def _evaluate(options: argparse.Namespace) -> Answer:
     if options.json:
         return Answer(status, evaluation_plain(spec, evaluation))
     slopes = ["", gradient_text(spec, evaluation)] if evaluation.gradient is not None else []
-    return Answer(status, "\n".join([evaluation_text(evaluation), *slopes]))
+    return Answer(status, "\n".join([evaluation_text(spec, evaluation), *slopes]))
 
 
 def _sweep(options: argparse.Namespace) -> Answer:
@@ -91,9 +96,46 @@ def _optimize(options: argparse.Namespace) -> Answer:
     return Answer(status, search_plain(result) if options.json else search_text(spec, result))
 
 
+def _pareto(options: argparse.Namespace) -> Answer:
+    from fluxbore.api import pareto
+    from fluxbore.pareto_messages import pareto_plain, pareto_text
+    from fluxbore.progress_bar import Bar
+
+    spec = read_spec(options)
+    with Bar(options.quiet) as bar:
+        result = pareto(spec, options.output, progress=bar.show, **_run_options(options))
+    done = DONE if result.front and result.ending == "done" else NOT_VALID
+    status = INTERRUPTED if result.ending == "interrupted" else done
+    return Answer(status, pareto_plain(result) if options.json else pareto_text(spec, result))
+
+
+def _tolerance(options: argparse.Namespace) -> Answer:
+    from fluxbore.api import tolerance
+    from fluxbore.progress_bar import Bar
+    from fluxbore.tolerance_messages import tolerance_plain, tolerance_text
+
+    spec = read_spec(options)
+    with Bar(options.quiet) as bar:
+        result = tolerance(spec, options.output, fidelity=options.fidelity, progress=bar.show, **_run_options(options))
+    return Answer(DONE, tolerance_plain(result) if options.json else tolerance_text(spec, result))
+
+
+def _robust(options: argparse.Namespace) -> Answer:
+    from fluxbore.api import robust
+    from fluxbore.progress_bar import Bar
+    from fluxbore.tolerance_messages import robust_plain, robust_text
+
+    spec = read_spec(options)
+    with Bar(options.quiet) as bar:
+        result = robust(spec, options.output, progress=bar.show, **_run_options(options))
+    interrupted = result.rounds[-1].search.ending == "interrupted"
+    status = INTERRUPTED if interrupted else DONE if result.reached else NOT_VALID
+    return Answer(status, robust_plain(result) if options.json else robust_text(spec, result))
+
+
 def _report(options: argparse.Namespace) -> Answer:
     from fluxbore.api import REPORT_FILE, report
-    from fluxbore.messages import design_plain
+    from fluxbore.design_messages import design_plain
 
     spec = read_spec(options)
     target = Path(options.output)
@@ -105,7 +147,7 @@ def _report(options: argparse.Namespace) -> Answer:
 
 def _design(options: argparse.Namespace) -> Answer:
     from fluxbore.api import design
-    from fluxbore.messages import design_plain, design_text
+    from fluxbore.design_messages import design_plain, design_text
     from fluxbore.progress_bar import Bar
 
     spec = read_spec(options)
@@ -123,4 +165,4 @@ def _design(options: argparse.Namespace) -> Answer:
 
 
 def _run_options(options: argparse.Namespace) -> dict[str, Any]:
-    return {"workers": options.workers, "time_limit": options.time_limit, "force": options.force}
+    return {name: getattr(options, name) for name in ("workers", "scheduler", "time_limit", "force")}

@@ -2,9 +2,18 @@
 
 from __future__ import annotations
 
-from fluxbore.design.keys import Value
+from fluxbore.design.keys import Key, Value
 from fluxbore.design.performance import FIGURES, show_figure
+from fluxbore.design.rates import measure_of_key
 from fluxbore.design.spec import KINDS, Spec
+from fluxbore.design.study import Tolerance
+
+
+def route(spec: Spec, fidelity: str) -> str:
+    """What computed the figures, in words."""
+    if fidelity == "network":
+        return "the magnetic network"
+    return "the exact field in air" if spec.kind.name == "coils" else "finite elements"
 
 
 def show_key(spec: Spec, name: str, value: Value) -> str:
@@ -13,9 +22,17 @@ def show_key(spec: Spec, name: str, value: Value) -> str:
     return key.show(value) if key is not None else str(value)
 
 
-def show_subject(subject: str, value: float) -> str:
+def show_subject(subject: str, value: float, digits: int = 6) -> str:
     """A figure or a key's value in its preferred unit; not rounded so far that a limit and its miss look alike."""
     if subject in FIGURES:
-        return show_figure(subject, value, 6)
+        return show_figure(subject, value, digits)
     key = next((key for kind in KINDS.values() if (key := kind.key(subject)) is not None), None)
-    return key.show(value) if key is not None else f"{value:.6g}"
+    return key.show(value, digits) if key is not None else f"{value:.{digits}g}"
+
+
+def tolerance_size(tolerance: Tolerance, key: Key) -> str:
+    """What a tolerance allows: ``± 0.05 mm``, or ``+0.05 mm / -0.02 mm``."""
+    step = measure_of_key(key)
+    if tolerance.plus == -tolerance.minus:
+        return f"\N{PLUS-MINUS SIGN} {step.show(tolerance.plus)}"
+    return f"+{step.show(tolerance.plus)} / -{step.show(abs(tolerance.minus))}"

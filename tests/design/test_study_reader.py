@@ -238,6 +238,7 @@ WRONG = {
     f'{BOTH}[study.pareto]\nagainst = "minimise total_mass"': "study.objective must be given for study.pareto",
     'objective = "maximise force_constant"\n[study.pareto]\nagainst = "minimise total_mass"': "study.variables must be given for study.pareto; got none.",
     f'{GOAL}[study.pareto]\nagainst = "minimise force_constant"': "study.pareto.against must differ from study.objective; got force_constant for both.",
+    f'{GOAL}{VARIABLE}key = "{SETS}"\nlower = 1\nupper = 2\n{FRONT}': f"study.variables must be continuous for study.pareto; got the count {SETS}.",
     f'{GOAL}[study.pareto]\nagainst = "total_mass"': 'study.pareto.against must be "maximise FIGURE" or "minimise FIGURE", such as "maximise force_constant"; got "total_mass".',
     f'{GOAL}[study.pareto]\nagainst = "minimise weight"': 'study.pareto.against must name a figure, such as force_constant or total_mass',
     f'{GOAL}{FRONT}points = 2': "study.pareto.points must be at least 3; got 2.",

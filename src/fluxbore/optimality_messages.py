@@ -1,0 +1,68 @@
+"""What the command line says of an optimum and of a conflict: what each limit costs, in words with units."""
+
+from __future__ import annotations
+
+from fluxbore.design.performance import FIGURES
+from fluxbore.design.rates import Measure, handy_step, measure_of_figure, measure_of_key
+from fluxbore.design.spec import Spec
+from fluxbore.design.study import Objective
+from fluxbore.optimize.outcome import Clash, Conflict, Multiplier, Optimality
+from fluxbore.value_text import show_subject
+
+SMALLEST_SHARE = 1e-6
+"""Relative objective per relative limit, below which a limit is said to be free of charge."""
+
+
+def optimality_lines(spec: Spec, objective: Objective, found: Optimality) -> list[str]:
+    """How nearly the design is an optimum, and what more room at each active limit would buy."""
+    lines = [
+        f"Karush-Kuhn-Tucker residual: {found.residual:.2g} (relative change of {objective.figure} over a variable's "
+        "whole range)."
+    ]
+    if found.multipliers:
+        lines.append("What more room would buy, to first order:")
+    return [*lines, *(f"  {_limit(item)}: {_bought(spec, objective, item)}" for item in found.multipliers)]
+
+
+def _limit(item: Multiplier | Clash) -> str:
+    word = "at most" if item.sense == "<=" else "at least"
+    own = ", its own bound" if item.bound else ""
+    return f"{item.subject} {word} {show_subject(item.subject, item.limit)}{own}"
+
+
+def _bought(spec: Spec, objective: Objective, item: Multiplier) -> str:
+    """What a tenth or less of the limit's size would do: ``0.1 mm more would raise force_constant by 0.02 N/A``."""
+    if item.share < SMALLEST_SHARE:
+        return f"more room would not change {objective.figure}"
+    unit = _measure(spec, item.subject, item.limit)
+    step = handy_step(item.limit, unit)
+    change = item.per_unit * (step if item.sense == "<=" else -step)
+    verb = "raise" if change > 0 else "lower"
+    amount = measure_of_figure(objective.figure, change).show(abs(change))
+    way = "more" if item.sense == "<=" else "less"
+    return f"{unit.show(step)} {way} would {verb} {objective.figure} by {amount}"
+
+
+def _measure(spec: Spec, subject: str, size: float) -> Measure:
+    return measure_of_figure(subject, size) if subject in FIGURES else measure_of_key(spec.kind.known(subject))
+
+
+def conflict_lines(spec: Spec, found: Conflict) -> list[str]:
+    """Which limits exclude one another around the least infeasible design, by how much, and what would settle it."""
+    lines = [
+        f"These limits exclude one another; the nearest design misses the worst of them by {100 * found.worst:.3g} %"
+        + ("" if found.settled else ", as far as the search went")
+        + ":"
+    ]
+    for item in found.clashes:
+        unit = _measure(spec, item.subject, item.limit)
+        parts = [f"found {show_subject(item.subject, item.value)}"]
+        if item.missed > 0:
+            parts.append(f"missed by {unit.show(item.missed)} ({100 * item.relative:.3g} %)")
+        if item.weight is not None:
+            parts.append(f"{100 * item.weight:.3g} % of the conflict")
+        if item.alone is not None and item.alone > 0:
+            parts.append(f"alone it would have to give way by {unit.show(item.alone)}")
+        lines.append(f"  {_limit(item)}: {', '.join(parts)}")
+    where = ", ".join(f"{key} {show_subject(key, value)}" for key, value in found.values.items())
+    return [*lines, f"  there: {where}"]
