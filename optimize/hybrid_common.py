@@ -27,6 +27,7 @@ from fluxbore.design.spec import Spec
 from fluxbore.design.units import format_quantity
 from fluxbore.geometry.hybrid_parts import assembly
 from fluxbore.geometry.mass import envelope, part_masses, total
+from fluxbore.optimize.hybrid_gaps import gaps
 
 NOTABLE_FRACTION = 0.01
 """Of the magnets' volume; the field at their sharp edges against the rings always takes a little less than that."""
@@ -192,7 +193,7 @@ def _loaded(spec: Spec, performance: Performance) -> Performance:
 
 def warnings(spec: Spec, performance: Performance) -> tuple[str, ...]:
     """What sound figures do not say by themselves: magnets beyond their temperature or their coercivity, eddy currents
-    beyond their formula."""
+    beyond their formula, figures that the study asks for and the data do not allow."""
     actuator: HybridActuator = spec.actuator
     grade = lookup(actuator.mover.magnet, "actuator.mover.magnet", spec.materials, PermanentMagnet)
     temperature = spec.number("operating_point.magnet_temperature")
@@ -209,7 +210,7 @@ def warnings(spec: Spec, performance: Performance) -> tuple[str, ...]:
             f"At this temperature {fraction:.1%} of the magnets' volume is beyond its intrinsic coercivity at no "
             "current; the figures take it as still magnetised."
         )
-    return (*found, *_thick_walls(spec, actuator))
+    return (*found, *_thick_walls(spec, actuator), *gaps(spec, performance))
 
 
 def _thick_walls(spec: Spec, actuator: HybridActuator) -> list[str]:

@@ -1,0 +1,53 @@
+"""Why a figure that a study asks for is not given: the datum that a material lacks, or a load that is not there."""
+
+from __future__ import annotations
+
+from fluxbore.design.materials import Material, lookup
+from fluxbore.design.performance import FIGURES, Performance
+from fluxbore.design.spec import Spec
+
+_DATA = {
+    "cylinder_safety": ("actuator.cylinder.material", ("yield_stress",)),
+    "bore_dilation": ("actuator.cylinder.material", ("young_modulus", "poisson_ratio")),
+    "bore_clearance": ("actuator.cylinder.material", ("young_modulus", "poisson_ratio")),
+    "eddy_loss": ("actuator.cylinder.material", ("resistivity",)),
+    "iron_loss": ("actuator.back_yoke.material", ("hysteresis_coefficient", "resistivity")),
+    "shaft_safety": ("actuator.shaft.material", ("yield_stress",)),
+    "buckling_force": ("actuator.shaft.material", ("young_modulus",)),
+    "buckling_safety": ("actuator.shaft.material", ("young_modulus",)),
+}
+"""Figure -> the key of the material that it needs, and what of it."""
+
+_OTHERWISE = {
+    "cylinder_safety": "operating_point.pressure does not load the cylinder",
+    "shaft_safety": "nothing pushes on the shaft at operating_point.pressure and operating_point.peak_current",
+    "buckling_safety": "nothing pushes on the shaft at operating_point.pressure and operating_point.peak_current",
+    "winding_temperature": "at operating_point.current the copper runs away, as its resistance grows faster than the "
+    "air takes the heat",
+    "speed_limit": "operating_point.current needs more than operating_point.supply_voltage at any speed",
+}
+"""Figure -> why it is missing although the data are there."""
+
+_SUPPLY = ("voltage_margin", "no_load_speed", "speed_limit")
+
+
+def gaps(spec: Spec, performance: Performance) -> tuple[str, ...]:
+    """A sentence for each figure of the study's constraints and objective that is missing for a known reason."""
+    study = spec.study
+    wanted = [limit.subject for limit in study.constraints if limit.subject in FIGURES]
+    wanted += [study.objective.figure] if study.objective is not None else []
+    wanted += [study.pareto.against.figure] if study.pareto is not None else []
+    missing = [name for name in dict.fromkeys(wanted) if getattr(performance, name) is None]
+    return tuple(f"{name} is not given: {reason}." for name in missing if (reason := _reason(spec, name)) is not None)
+
+
+def _reason(spec: Spec, figure: str) -> str | None:
+    if figure in _DATA:
+        key, data = _DATA[figure]
+        material = lookup(spec.word(key), key, spec.materials, Material)
+        lacking = [name for name in data if getattr(material, name, None) is None]
+        if lacking:
+            return f'{key} "{material.name}" states no {" and no ".join(lacking)}'
+    if figure in _SUPPLY and "operating_point.supply_voltage" not in spec.values:
+        return "operating_point.supply_voltage is not given"
+    return _OTHERWISE.get(figure)
