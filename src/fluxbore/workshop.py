@@ -94,9 +94,7 @@ def workshop(
     None for the usual one.
     """
     with ExitStack() as stack:
-        executor = stack.enter_context(
-            executor_for(workers, scheduler, TIME_LIMIT if time_limit is None else time_limit)
-        )
+        executor = stack.enter_context(_executor(workers, scheduler, TIME_LIMIT if time_limit is None else time_limit))
         place = stack.enter_context(open_folder(folder, spec, force)) if folder is not None else None
         yield Workshop(place, executor)
 
