@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from fluxbore.optimize.archive import Archive, BudgetUsedError
+from fluxbore.optimize.archive import Archive, BudgetUsedError, TimeUsedError
 from fluxbore.optimize.outcome import Limit
 from fluxbore.optimize.problem import Merit, Point
 from fluxbore.optimize.space_mapping_network import Coarse, Network
@@ -23,7 +23,8 @@ class Mapped:
 
     reason : a sentence. converged : whether the finite elements' first-order conditions hold.
     fem_designs : asked for by the mapping, those that an earlier run computed included; network_calls : of the network.
-    steps : designs that were accepted. residual : of the first-order conditions at the last one, see `kkt_residual`;
+    steps : designs that were accepted. residual : of the first-order conditions at the last one, see
+    `fluxbore.optimize.optimality.residual`;
     None before there was one. exact : whether all slopes were the model's own, not estimates.
     """
 
@@ -60,14 +61,17 @@ def run_mapping(
 ) -> Mapped:
     """Look for the archive's best design, the network corrected by the finite elements proposing each.
 
-    start : scaled point. tolerance : least gain (relative loss) worth a design. back_off : room to leave to the limits.
-    Designs that the archive has already are used as they are. Ends at a used-up budget as well and says so; what else
-    stops an evaluation (Ctrl-C, a full disk) passes through, with everything found so far in the archive.
+    start : scaled point. tolerance : relative, of the objective, as a study gives it; a tenth of it is the least gain
+    worth a design. back_off : room to leave to the limits.
+    Designs that the archive has already are used as they are. Ends at a used-up budget or time as well and says so;
+    what else stops an evaluation (Ctrl-C, a full disk) passes through, with everything found so far in the archive.
     """
     mapping = Mapping(archive, merit, tuple(held), Coarse(network, merit, held, archive.box), tolerance, back_off)
     before = len(archive.history)
     try:
         ending, converged = mapping.run(start)
+    except TimeUsedError:
+        ending, converged = "The mapping reached its time limit", False
     except BudgetUsedError:
         ending, converged = "The mapping used up its budget of FEM designs", False
     fem = len(archive.history) - before

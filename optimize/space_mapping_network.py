@@ -7,11 +7,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from fluxbore.design.spec import Spec
 from fluxbore.optimize.archive import Archive
-from fluxbore.optimize.evaluation import FAILED, failure
-from fluxbore.optimize.evaluator import Evaluate, Evaluator
-from fluxbore.optimize.executor import SerialExecutor
+from fluxbore.optimize.evaluator import Evaluate
 from fluxbore.optimize.outcome import Candidate, Limit
 from fluxbore.optimize.problem import Box, Merit, Point, candidate
 from fluxbore.optimize.space_mapping_response import Array, Response, response
@@ -23,22 +20,18 @@ STEP = 1e-6
 """Of the differences, of each variable's range: closed forms bear it."""
 
 
-def network_model(archive: Archive, base: Spec, evaluate: Evaluate) -> Network:
-    """The network of the archive's study; a design that cannot be built or computed is None.
-
-    base : the start design as the study sees it (`Spec.for_study`).
-    """
-    evaluator = Evaluator(base, SerialExecutor(), None, "network", evaluate, "search")
+def network_model(archive: Archive, evaluate: Evaluate) -> Network:
+    """The network of the archive's study; a design that cannot be built or computed is None."""
     box = archive.box
+    keys = (*box.keys, *archive.fixed)
 
     def at(point: Point) -> Candidate | None:
         try:
-            spec = evaluator.design(box.values(point))
+            spec = archive.design(box.values(point))
             evaluation = evaluate(spec, "network")
-        except Exception as error:
-            # Whatever a model raises at one point of the range is that point's own, as in a worker.
-            evaluation = failure("network", FAILED, f"{type(error).__name__}: {error}")
-        return candidate(spec, archive.objective, archive.limits, box.keys, evaluation) if evaluation.ok else None
+        except Exception:  # whatever a model raises at one point of the range is that point's own, as in a worker
+            return None
+        return candidate(spec, archive.objective, archive.limits, keys, evaluation) if evaluation.ok else None
 
     return at
 

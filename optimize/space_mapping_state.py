@@ -7,7 +7,10 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from fluxbore.design.performance import FIGURES
 from fluxbore.optimize.archive import Archive
+from fluxbore.optimize.gradient_search import View
+from fluxbore.optimize.optimality import multipliers
 from fluxbore.optimize.outcome import Candidate, Limit
 from fluxbore.optimize.problem import FEASIBILITY, Merit, Point
 from fluxbore.optimize.space_mapping_network import Coarse
@@ -18,7 +21,7 @@ from fluxbore.optimize.space_mapping_surrogate import MEMORY, Sample, Surrogate,
 FIRST_RADIUS = 0.25
 """Of the trust region, of each variable's range; a step is at most this long in each of them."""
 
-SMALLEST_RADIUS = 1e-7
+SMALLEST_RADIUS = 1e-6
 
 REFERENCE_RADIUS = 0.05
 """Gains are judged over at least this far: a small trust region must not pass for an optimum."""
@@ -39,7 +42,8 @@ NEAR = 10 * DIFFERENCE
 class Mapping:
     """The state of one run: the iterate ``centre``, its slopes, the trust region, and all samples.
 
-    measured : where the estimated slopes were last measured by differences.
+    given_up : radius of the trust region before designs failed. measured : where the estimated slopes were last
+    measured by differences.
     """
 
     archive: Archive
@@ -52,6 +56,7 @@ class Mapping:
     jacobian: Array = None
     samples: list[Sample] = field(default_factory=list)
     radius: float = FIRST_RADIUS
+    given_up: float = 0.0
     penalty: float = FIRST_PENALTY
     steps: int = 0
     measured: Array = None
@@ -66,15 +71,14 @@ class Mapping:
             model = surrogate(self.coarse, self.samples, self.centre, self.jacobian)
             step = best_step(model, self.archive.box, self.radius, self.penalty, self.room)
             self.penalty = step.penalty
-            gain = self.merit_of(self.centre.fine.values) - self.merit_of(step.expected)
-            if gain * max(REFERENCE_RADIUS / self.radius, 1.0) <= self.tolerance / 10 or not gain > 0:
-                if self.measured_within(0.0) or (self.measured_within(NEAR) and self.residual() <= self.small):
-                    return self.converged()
+            gain = self.gain(step)
+            settled = self.promise(model, gain) <= self.worth
+            if not settled and gain > 0 and self.radius >= SMALLEST_RADIUS:
+                self.take(model, step, gain)
+            elif self.measured_within(0.0) or (self.measured_within(NEAR) and self.residual() <= self.small):
+                return self.ending(settled)
+            else:
                 self.measure()
-                continue
-            if self.radius < SMALLEST_RADIUS:
-                return "The mapping stopped: the finite elements confirm no step, however short", False
-            self.take(model, step, gain)
 
     def begin(self, start: Point) -> bool:
         """Take the start, or the best design known, for the first iterate."""
@@ -114,7 +118,11 @@ class Mapping:
         if fine is None or not fine.complete:
             return None
         x = np.array(self.archive.box.tidy(point))
-        return Sample(x, fine, self.coarse.with_slopes(x))
+        coarse = self.coarse.with_slopes(x)
+        if coarse is not None:  # a key that follows from the variables is the same by either route
+            keys = [row for row, limit in enumerate(self.held, 1) if limit.subject not in FIGURES]
+            fine.slopes[keys] = coarse.slopes[keys]
+        return Sample(x, fine, coarse)
 
     def merit_of(self, values: Array) -> float:
         return merit_value(values, self.penalty, self.room)
@@ -126,25 +134,46 @@ class Mapping:
             return True
         return self.measured is not None and float(np.abs(self.measured - self.centre.x).max()) <= reach
 
+    def gain(self, step: Step) -> float:
+        """What the surrogate expects of a step."""
+        assert self.centre is not None
+        return self.merit_of(self.centre.fine.values) - self.merit_of(step.expected)
+
+    def promise(self, model: Surrogate, gain: float) -> float:
+        """What it expects within `REFERENCE_RADIUS` at least, ``gain`` being what it expects of the trust region."""
+        if self.radius >= REFERENCE_RADIUS:
+            return gain
+        return max(gain, self.gain(best_step(model, self.archive.box, REFERENCE_RADIUS, self.penalty, self.room)))
+
+    @property
+    def worth(self) -> float:
+        """The least gain that is worth a design: a tenth of the tolerance.
+
+        A thousandth of that where the model's own slopes say that the first-order conditions can be had more exactly,
+        and the surrogate has proved good enough to say where.
+        """
+        least = self.tolerance / 10
+        refine = self.exact and self.radius >= REFERENCE_RADIUS and self.residual() > 10 * self.tolerance
+        return least / 1000 if refine else least
+
     @property
     def small(self) -> float:
         """What the first-order conditions may be off by.
 
-        A residual r along which the loss bends by k promises a gain of r²/2k: with k = 10, less than half of the
-        tolerance. Measured slopes are themselves no better than their step.
+        A residual r along which the loss bends by k promises a gain of r²/2k: with k = 10, less than half of what is
+        worth a design. Measured slopes are themselves no better than their step.
         """
-        return 3 * max(math.sqrt(self.tolerance), 0.0 if self.exact else DIFFERENCE)
+        return 3 * max(math.sqrt(self.tolerance / 10), 0.0 if self.exact else DIFFERENCE)
 
-    def converged(self) -> tuple[str, bool]:
+    def ending(self, settled: bool) -> tuple[str, bool]:
+        """What is to be said where no further step is tried. settled : no gain worth a design is promised."""
         assert self.centre is not None
         missed = worst_miss(self.centre.fine.values, 0.0)
         if missed > FEASIBILITY:
-            return (
-                f"The mapping ended where no step brings the limits nearer: the worst is missed by {missed:.2%}",
-                False,
-            )
-        if self.residual() > self.small:
-            return "The mapping stopped: its surrogate finds no gain where the slopes promise one", False
+            words = f"the worst is missed by {missed:.2g} of its size"
+            return f"The mapping ended where no step brings the limits nearer: {words}", False
+        if not settled or self.residual() > self.small:
+            return "The mapping stopped: the finite elements confirm no step, however short", False
         reach = max(self.radius, REFERENCE_RADIUS)
         return (
             f"The mapping converged: within {reach:.0%} of the ranges less than {self.tolerance / 10:.0e} of the "
@@ -159,7 +188,8 @@ class Mapping:
         length = float(np.abs(move).max())
         found = self.sample(point, self.archive.at(point))
         if found is None:  # no figures there: nearer, then
-            self.radius = 0.3 * length
+            self.given_up = max(self.given_up, self.radius)
+            self.radius = 0.5 * length
             return
         self.samples.append(found)
         share = (self.merit_of(self.centre.fine.values) - self.merit_of(found.fine.values)) / gain
@@ -176,7 +206,9 @@ class Mapping:
             if share < CONFIRMED and not self.measured_within(NEAR):
                 self.measure()
         elif share > GOOD and length >= 0.9 * self.radius:
-            self.radius = min(2 * self.radius, 1.0)
+            # Failures say nothing against the surrogate: half of what they took (in orders of magnitude) comes back.
+            self.radius = min(max(2 * self.radius, math.sqrt(self.radius * self.given_up)), 1.0)
+            self.given_up = 0.0
 
     def measure(self) -> None:
         """Measure the slopes that no model brings by differences of the finite elements, side by side.
@@ -213,25 +245,8 @@ class Mapping:
         return (change - a * network) / step + a * np.nan_to_num(self.centre.coarse.slopes[:, i])
 
     def residual(self) -> float:
+        """Of the first-order conditions at the iterate, see `fluxbore.optimize.optimality.residual`."""
         assert self.centre is not None
-        if not math.isfinite(float(self.jacobian.sum())):
-            return math.inf
-        return kkt_residual(self.jacobian, self.centre.fine.values[1:], self.centre.x, self.room)
-
-
-def kkt_residual(jacobian: Array, misses: Array, x: Array, room: float) -> float:
-    """Largest entry of ∇f + Σ λ_i ∇g_i + Σ ν_j (±e_j), λ and ν >= 0 chosen to make its norm the least.
-
-    jacobian : (1 + m, n) of loss and misses by the scaled variables. The limits that count are those within 0.1 % of
-    their size (less ``room``), the bounds those within 1e-6 of their range.
-    """
-    from scipy.optimize import nnls
-
-    columns = [row for row, miss in zip(jacobian[1:], misses, strict=True) if miss + room >= -1e-3]
-    columns += [-np.eye(x.size)[j] for j in range(x.size) if x[j] <= 1e-6]
-    columns += [np.eye(x.size)[j] for j in range(x.size) if x[j] >= 1 - 1e-6]
-    if not columns:
-        return float(np.abs(jacobian[0]).max())
-    matrix = np.column_stack(columns)
-    multipliers, _ = nnls(matrix, -jacobian[0])
-    return float(np.abs(jacobian[0] + matrix @ multipliers).max())
+        loss, *misses = (float(value) for value in self.centre.fine.values)
+        slope, *rows = (tuple(row) for row in self.jacobian)
+        return multipliers(View(loss, tuple(misses), slope, tuple(rows)), tuple(self.centre.x))[1]

@@ -95,7 +95,8 @@ def _run(model: Surrogate, box: Box, best: _Best, region: tuple[Array, Array], p
     """Let SLSQP look for something better within the region, in coordinates of its size and with t as the last."""
     low, high = region
     span, limits, size = high - low, len(model.a) - 1, low.size
-    slack = worst_miss(best.values, room)
+    scale = float(span.max(initial=0.0)) or 1.0  # the smaller the region, the smaller its gains and misses
+    origin, slack = best.values[0], worst_miss(best.values, room) / scale
 
     def view(u: Point) -> View | None:
         x = low + np.array(u[:size]) * span
@@ -105,16 +106,13 @@ def _run(model: Surrogate, box: Box, best: _Best, region: tuple[Array, Array], p
             return None
         if there is not None and (merit := merit_value(there, penalty, room)) < best.size:
             best.size, best.x, best.values = merit, point, there
-        slopes = model.slopes_at(x) * span
+        slopes = model.slopes_at(x) * (span / scale)
+        loss = float(values[0] - origin) / scale
         if not limits:
-            return View(float(values[0]), (), tuple(slopes[0]), ())
-        misses = values[1:] + room - u[-1]
-        return View(
-            float(values[0] + penalty * u[-1]),
-            tuple(misses),
-            (*slopes[0], penalty),
-            tuple((*row, -1.0) for row in slopes[1:]),
-        )
+            return View(loss, (), tuple(slopes[0]), ())
+        misses = (values[1:] + room) / scale - u[-1]
+        rows = tuple((*row, -1.0) for row in slopes[1:])
+        return View(loss + penalty * u[-1], tuple(misses), (*slopes[0], penalty), rows)
 
     extra = 1 if limits else 0
     begin = np.divide(best.x - low, span, out=np.zeros(size), where=span > 0)
@@ -122,7 +120,7 @@ def _run(model: Surrogate, box: Box, best: _Best, region: tuple[Array, Array], p
         view,
         [*begin, *([slack] * extra)],
         [0.0] * (size + extra),
-        [*(span > 0).astype(float), *([2 * slack + 1.0] * extra)],
+        [*(span > 0).astype(float), *([2 * slack + 10.0] * extra)],
         objective_tolerance=1e-13,
         variable_tolerance=1e-9,
         calls=CALLS,

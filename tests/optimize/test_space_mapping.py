@@ -1,6 +1,7 @@
 """Network first: whatever the network says, the mapping ends at the finite elements' optimum or says it did not."""
 
 import math
+import random
 
 import numpy as np
 import pytest
@@ -16,7 +17,6 @@ from fluxbore.optimize.problem import Merit, box, resolve_limits
 from fluxbore.optimize.space_mapping import manifold, run_mapping
 from fluxbore.optimize.space_mapping_network import Coarse, network_model
 from fluxbore.optimize.space_mapping_response import response
-from fluxbore.optimize.space_mapping_state import kkt_residual
 from fluxbore.optimize.space_mapping_surrogate import Sample, surrogate
 
 X, Y = toy.X, toy.Y
@@ -105,12 +105,12 @@ def setting(pair, spec, budget=60):
     limits = resolve_limits(base, pair(base))
     archive = Archive(evaluator, bounds, spec.study.objective, limits, budget)
     start = bounds.point({key: base.number(key) for key in bounds.keys})
-    return archive, Merit(spec.study.objective, 10.0), limits, network_model(archive, base, pair), start
+    return archive, Merit(spec.study.objective, 10.0), limits, network_model(archive, pair), start
 
 
-def mapped(pair, spec=None, budget=60, tolerance=1e-9, room=1e-9):
+def mapped(pair, spec=None, budget=60, tolerance=1e-9):
     archive, merit, held, network, start = setting(pair, spec or study(), budget)
-    return archive, run_mapping(archive, merit, held, network, start, tolerance, room)
+    return archive, run_mapping(archive, merit, held, network, start, tolerance, tolerance / 10)
 
 
 def optimum(limit=1.0):
@@ -158,7 +158,7 @@ def test_without_slopes_it_measures_them_or_says_that_it_did_not_arrive(network,
     if result.converged:
         assert archive.best.objective == pytest.approx(optimum(), abs=3e-4)
     else:
-        assert result.reason.startswith(("The mapping stopped", "The mapping used up its budget"))
+        assert result.reason.startswith(("The mapping stopped", "The mapping ended where", "The mapping used up"))
     # A network that is right up to a factor leaves nothing to be measured but that it is.
     if network == "scaled":
         assert result.converged
@@ -215,12 +215,16 @@ def test_designs_that_fail_cost_themselves_only(exact, routes):
     assert not result.converged
 
 
-def test_designs_that_fail_on_the_way_do_not_keep_it_from_the_optimum():
-    """Every third design fails, always the same ones."""
-    pair = Pair(fine, blind, fails=lambda fidelity, x, y: fidelity == "fem" and math.sin(1e3 * x + 2e3 * y) > 0.5)
-    archive, result = mapped(pair, tolerance=1e-6)
-    assert sum(not made.evaluation.ok for made in archive.history) >= 2
-    assert archive.best.objective == pytest.approx(optimum(), abs=1e-4)
+@pytest.mark.parametrize("seed", range(4))
+def test_designs_that_fail_on_the_way_do_not_keep_it_from_the_optimum(seed):
+    """A third of all points fails, scattered at random and always the same ones."""
+
+    def fails(fidelity, x, y):
+        return fidelity == "fem" and (x, y) != (0.2, 0.2) and random.Random(f"{seed} {x!r} {y!r}").random() < 1 / 3
+
+    archive, result = mapped(Pair(fine, blind, fails=fails), tolerance=1e-6)
+    assert any(not made.evaluation.ok for made in archive.history)
+    assert archive.best.objective == pytest.approx(optimum(), abs=1e-5)
     assert result.converged
 
 
@@ -309,13 +313,3 @@ def test_a_norm_lends_its_slope_to_the_maximum():
     assert found.values == pytest.approx([-0.9, -0.4])
     assert found.slopes[0] == pytest.approx([-0.4, -0.8])
     assert found.slopes[1] == pytest.approx([0.1 * 4 * 1.2, -0.2 * 4 * 1.2])
-
-
-def test_the_residual_is_zero_where_multipliers_balance_and_not_where_they_would_be_negative():
-    jacobian = np.array([[-1.0, 0.5], [2.0, 0.0]])
-    bound, inside = np.array([0.3, 0.0]), np.array([0.3, 0.5])
-    assert kkt_residual(jacobian, np.array([0.0]), bound, 0.0) == pytest.approx(0.0, abs=1e-12)
-    assert kkt_residual(jacobian, np.array([0.0]), inside, 0.0) == pytest.approx(0.5)
-    assert kkt_residual(jacobian, np.array([-0.5]), bound, 0.0) == pytest.approx(1.0)
-    assert kkt_residual(-jacobian, np.array([0.0]), bound, 0.0) == pytest.approx(0.5)
-    assert kkt_residual(-jacobian, np.array([0.0]), 1 - bound, 0.0) == pytest.approx(0.0, abs=1e-12)
