@@ -40,9 +40,18 @@ class GradientStage:
         Settled: maximum / norm is the same before and after a round, and the first-order conditions hold or a round has
         gained nothing. Raises what stopped a run from within, NoSlopesError among it.
         """
-        self.ended = point = self.archive.box.point(start.values)
+        self.ended = self.archive.box.point(start.values)
+        reason = self._rounds(algorithm)
+        if algorithm == "SLSQP" or reason == NO_START or self.first_order(self.ended):
+            return reason
+        # From outside a limit they can stall far from any optimum; there SLSQP has a step to offer.
+        more = self._rounds("SLSQP")
+        return f"{algorithm} stopped where the first-order conditions do not hold; SLSQP went on from there. {more}"
+
+    def _rounds(self, algorithm: str) -> str:
         reason = NO_START
         for _ in range(ROUNDS):
+            point = self.ended
             kappas = self.slopes.kappas(self.archive.at(point))
             ending = self._round(algorithm, point, kappas)
             if ending.stopped_by is not None:
@@ -55,9 +64,9 @@ class GradientStage:
                 break
             before, after = self._rank(point, kappas), self._rank(found, kappas)
             gained = before[1] - after[1] if before[0] <= after[0] else math.inf
-            moved = found != point
-            self.ended = point = found
-            if self.settled(kappas, point) and (not moved or gained <= self.tolerance / 10 or self.first_order(point)):
+            self.ended = found
+            still = found == point or gained <= self.tolerance / 10
+            if self.settled(kappas, found) and (still or self.first_order(found)):
                 break
         return reason
 

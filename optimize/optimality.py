@@ -10,7 +10,6 @@ and nu_j times the distance to its bound is 0. The multipliers are those that co
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 from fluxbore.optimize.gradient_search import View
@@ -43,7 +42,7 @@ def multipliers(view: View, x: Point) -> tuple[Any, float]:
     return found, residual(view, x, found)
 
 
-def residual(view: View, x: Point, found: Sequence[float]) -> float:
+def residual(view: View, x: Point, found: Any) -> float:
     """The largest of |grad f + sum lambda grad g + sum nu (±e)| by component, of lambda_i |g_i| and nu_j x room.
 
     Numbers are scaled: f is relative to the objective's size, g to the limit's, x to the variable's range. So 1e-3

@@ -2,8 +2,8 @@
 
 The step next to the optimum need not be the best one, nor feasible: where a limit runs slantwise through the steps, the
 best design of the workshop's is often some steps along it. So the nearest steps are evaluated first, then those that
-quadratic models of all designs seen so far expect to be better. Where designs bring derivatives, first-order models
-around the designs seen take the place of both: they order the steps from the first one on.
+quadratic models of all designs seen so far expect to be better. Where designs bring derivatives, a few of them are
+enough for such models, and these order the steps from the first one on.
 """
 
 from __future__ import annotations
@@ -86,37 +86,32 @@ def _ordered(
     slopes: Slopes,
     tolerance: float,
 ) -> list[dict[str, float]]:
-    """The designs not yet seen of which first-order models expect the most, the feasible ones first.
-
-    Each is judged from the nearest design that brings derivatives, so every design evaluated mends the picture.
-    """
-    views = [(point, view) for point, made in archive.points if (view := slopes.own_view(made)) is not None]
+    """The designs not yet seen of which models by derivatives expect the most, the feasible ones first."""
+    models = fit(archive, slopes.merit, slopes.held, share=4, slopes=slopes)
+    points = [archive.box.point(values) for values in designs]
+    if models is None:
+        best = archive.best
+        assert best is not None
+        view, centre = slopes.own_view(best), archive.box.point(best.values)
+        assert view is not None
+        rows = [predicted(centre, view, point) for point in points]
+    else:
+        rows = models.predict(points)
     known = _best_step(archive, variables)
     bar = slopes.merit.loss(known) if known is not None and known.feasible else None
     ranked = []
-    for i, values in enumerate(designs):
-        point = archive.box.point(values)
-        if archive.knows(point):
-            continue
-        loss, misses = predicted(*min(views, key=lambda item: math.dist(item[0], point)), point)
+    for i, (loss, *misses) in enumerate(rows):
         worst = max([0.0, *misses])
-        if bar is None or (worst <= 0 and loss < bar - tolerance):
-            ranked.append((worst, loss, i))
+        if not archive.knows(points[i]) and (bar is None or (worst <= 0 and loss < bar - tolerance)):
+            ranked.append((float(worst), float(loss), i))
     return [designs[i] for _, _, i in sorted(ranked)[:AT_ONCE]]
 
 
-def predicted(centre: Point, view: View, point: Point) -> tuple[float, list[float]]:
+def predicted(centre: Point, view: View, point: Point) -> list[float]:
     """Loss and misses at a scaled point, to first order from the view at ``centre``."""
     step = [x - c for x, c in zip(point, centre, strict=True)]
-    rows = zip(view.misses, view.miss_slopes, strict=True)
-    return (
-        view.loss + _dot(view.slope, step),
-        [miss + _dot(slopes, step) for miss, slopes in rows],
-    )
-
-
-def _dot(one: Sequence[float], other: Sequence[float]) -> float:
-    return sum(a * b for a, b in zip(one, other, strict=True))
+    values = zip((view.loss, *view.misses), (view.slope, *view.miss_slopes), strict=True)
+    return [value + sum(a * b for a, b in zip(slopes, step, strict=True)) for value, slopes in values]
 
 
 def _expected(

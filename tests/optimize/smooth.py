@@ -5,6 +5,7 @@ Each brings what is asked for: `Evaluation.gradient` by the dotted keys, figures
 
 import math
 import os
+from dataclasses import replace
 
 from toy import N, X, Y, log, spec
 
@@ -67,26 +68,6 @@ def crash(design, fidelity="fem", gradient=()):
     return rosenbrock(design, fidelity, gradient)
 
 
-def peaked(design, fidelity="fem", gradient=()):
-    """Force and a stray field that is the largest of three, with its 8-norm; its derivatives are the norm's."""
-    log(design)
-    x, y = design.number(X), design.number(Y)
-    parts = ((x + 1.5, 1.0, 0.0), (y + 1.4, 0.0, 1.0), (1.2 + (x + y) / 3, 1 / 3, 1 / 3))
-    mean = sum(abs(value) ** 8 for value, _, _ in parts) / 3
-    norm = mean ** (1 / 8)
-    rows = [
-        sum(abs(part[0]) ** 7 * math.copysign(1.0, part[0]) * part[i] for part in parts) / 3 * mean ** (1 / 8 - 1)
-        for i in (1, 2)
-    ]
-    return made(
-        {"force_constant": 5 + x + 2 * y - 0.1 * (x * x + y * y), "stray_field": max(value for value, _, _ in parts)},
-        {"force_constant": {X: 1 - 0.2 * x, Y: 2 - 0.2 * y}, "stray_field": {X: rows[0], Y: rows[1]}},
-        gradient,
-        {"stray_field": Norm(8.0, norm)},
-        fidelity,
-    )
-
-
 def study(x=0.2, y=0.2, constraints=None, variables=None, figure="force_constant", maximise=True, **search):
     limits = (Constraint("stray_field", upper=1.0),) if constraints is None else constraints
     moved = (Variable(X, -2.0, 2.0), Variable(Y, -2.0, 2.0)) if variables is None else variables
@@ -98,3 +79,40 @@ def study(x=0.2, y=0.2, constraints=None, variables=None, figure="force_constant
         constraints=limits,
         search=Search(**search),
     )
+
+
+def ridge_parts(x, y):
+    """A bump along a line, its top between -1 and 1 wherever x and y are: 41 samples and their slopes by x and y."""
+    for i in range(41):
+        s = i / 20 - 1
+        top = 0.2 * x - 0.1 * y
+        height = 1 + 0.3 * x + 0.2 * y
+        bump = math.exp(-2 * (s - top) ** 2)
+        yield height * bump, 0.3 * bump + 0.8 * height * bump * (s - top), 0.2 * bump - 0.4 * height * bump * (s - top)
+
+
+def ridge_peak(x, y):
+    return max(value for value, _, _ in ridge_parts(x, y))
+
+
+def ridge(design, fidelity="fem", gradient=()):
+    """Force and a stray field that is the largest along a line, with its 8-norm; its derivatives are the norm's."""
+    log(design)
+    x, y = design.number(X), design.number(Y)
+    parts = list(ridge_parts(x, y))
+    mean = sum(value**8 for value, _, _ in parts) / len(parts)
+    rows = [sum(part[0] ** 7 * part[i] for part in parts) / len(parts) * mean ** (1 / 8 - 1) for i in (1, 2)]
+    return made(
+        {"force_constant": 5 + x + 2 * y - 0.1 * (x * x + y * y), "stray_field": max(part[0] for part in parts)},
+        {"force_constant": {X: 1 - 0.2 * x, Y: 2 - 0.2 * y}, "stray_field": {X: rows[0], Y: rows[1]}},
+        gradient,
+        {"stray_field": Norm(8.0, mean ** (1 / 8))},
+        fidelity,
+    )
+
+
+def unkept(design, fidelity="fem", gradient=()):
+    """`rosenbrock` without the derivatives of the stray field."""
+    evaluation = rosenbrock(design, fidelity, gradient)
+    kept = {name: row for name, row in (evaluation.gradient or {}).items() if name != "stray_field"}
+    return replace(evaluation, gradient=kept or None)
