@@ -6,6 +6,11 @@ import sys
 import time
 from pathlib import Path
 
+import toy
+
+from fluxbore.design.performance import Performance
+from fluxbore.optimize.evaluation import OK, Evaluation
+
 
 def double(number):
     return 2 * number
@@ -58,3 +63,24 @@ def chatter(_):
 
 def stillborn(_connection):
     os._exit(3)
+
+
+def kill_the_clusters_worker(kills):
+    """Take the process above with us, as a lack of memory may."""
+    if kills:
+        os.kill(os.getppid(), signal.SIGKILL)
+        time.sleep(600)
+    return kills
+
+
+def slow_rosenbrock(design, fidelity="fem"):
+    """`toy.rosenbrock`, whose network leaves no trace: it is not recorded, so that it is computed in every run."""
+    if fidelity == "network":
+        return Evaluation(fidelity, OK, (), Performance(force_constant=-((design.number(toy.X) - 0.5) ** 2)))
+    time.sleep(0.02)
+    return toy.rosenbrock(design, fidelity)
+
+
+def search_study():
+    """A search of a few hundred designs, all of them by the derivative-free way."""
+    return toy.rosenbrock_study(algorithm="ISRES", max_evaluations=250)
