@@ -7,8 +7,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from fluxbore.design.spec import Spec
 from fluxbore.optimize.archive import Archive
-from fluxbore.optimize.evaluator import Evaluate
+from fluxbore.optimize.evaluator import Evaluate, Evaluator
+from fluxbore.optimize.executor import SerialExecutor
 from fluxbore.optimize.outcome import Candidate, Limit
 from fluxbore.optimize.problem import Box, Merit, Point, candidate
 from fluxbore.optimize.space_mapping_response import Array, Response, response
@@ -20,14 +22,18 @@ STEP = 1e-6
 """Of the differences, of each variable's range: closed forms bear it."""
 
 
-def network_model(archive: Archive, evaluate: Evaluate) -> Network:
-    """The network of the archive's study; a design that cannot be built or computed is None."""
+def network_model(archive: Archive, base: Spec, evaluate: Evaluate) -> Network:
+    """The network of the archive's study; a design that cannot be built or computed is None.
+
+    base : the start design as the study sees it (`Spec.for_study`), with the counts that the archive holds fixed.
+    """
     box = archive.box
     keys = (*box.keys, *archive.fixed)
+    evaluator = Evaluator(base, SerialExecutor(), None, "network", evaluate, "search")
 
     def at(point: Point) -> Candidate | None:
         try:
-            spec = archive.design(box.values(point))
+            spec = evaluator.design(box.values(point))
             evaluation = evaluate(spec, "network")
         except Exception:  # whatever a model raises at one point of the range is that point's own, as in a worker
             return None

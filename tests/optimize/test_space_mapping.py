@@ -105,7 +105,7 @@ def setting(pair, spec, budget=60):
     limits = resolve_limits(base, pair(base))
     archive = Archive(evaluator, bounds, spec.study.objective, limits, budget)
     start = bounds.point({key: base.number(key) for key in bounds.keys})
-    return archive, Merit(spec.study.objective, 10.0), limits, network_model(archive, pair), start
+    return archive, Merit(spec.study.objective, 10.0), limits, network_model(archive, base, pair), start
 
 
 def mapped(pair, spec=None, budget=60, tolerance=1e-9):
