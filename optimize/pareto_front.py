@@ -65,7 +65,7 @@ class Front:
         alone = points.shared_best()
         if alone is not None:
             self.conflicting = False
-            points.found, points.problems = {alone: points.found[alone]}, {}
+            points.leave_only(alone)
             return "The objectives do not conflict: one design is the best in both, and the front is that one point."
         self.reference = points.scale_to_ends()
         inner = points.set_inner()

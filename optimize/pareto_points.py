@@ -109,6 +109,12 @@ class Points:
             return 1.0
         return 0.0 if first[1] - second[1] <= room[1] else None
 
+    def leave_only(self, end: float) -> None:
+        """The front is this one point: there is no slope along it."""
+        found = self.found[end]
+        met = None if found.conditions is None else replace(found.conditions, weights=(0.0, 0.0))
+        self.found, self.problems = {end: replace(found, conditions=met)}, {}
+
     def ahead(self, behind: Sequence[float], position: float) -> Point | None:
         """The scaled point where the straight line through the two designs behind arrives at this position."""
         designs = [design for p in behind if (design := self.design(p)) is not None]

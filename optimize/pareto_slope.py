@@ -3,12 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
-from fluxbore.optimize.optimality import multipliers
+from fluxbore.optimize.gradient_search import View
+from fluxbore.optimize.optimality import residual
 from fluxbore.optimize.outcome import Candidate
 from fluxbore.optimize.pareto_scalar import Scalarisation, Scale
 from fluxbore.optimize.pareto_sight import Sight
+from fluxbore.optimize.problem import Point
 from fluxbore.optimize.slopes import NoSlopesError
+
+_SMALL = 1e-6
+"""Weight of the multipliers' own size against the conditions."""
 
 _STEEPEST = 1e-6
 """Where the first objective has less than this share of the weight, the front is upright there."""
@@ -49,12 +55,31 @@ def met_at(problem: Scalarisation, sight: Sight, design: Candidate) -> Condition
     if seen is None:
         return None
     slack = problem.begin(seen)
-    found, residual = multipliers(problem.view(seen, slack), (*sight.box.point(design.values), *slack))
+    view, point = problem.view(seen, slack), (*sight.box.point(design.values), *slack)
+    found = least_multipliers(view, point)
     rows = list(zip(problem.rows, found, strict=False))
     return Conditions(
-        residual,
+        residual(view, point, found),
         (
             float(problem.loss.first + sum(row.first * price for row, price in rows)),
             float(problem.loss.second + sum(row.second * price for row, price in rows)),
         ),
     )
+
+
+def least_multipliers(view: View, point: Point) -> Any:
+    """Of the non-negative multipliers of misses, lower and upper bounds that fit best the smallest ones, (k + 2n,).
+
+    As `fluxbore.optimize.optimality.multipliers`, but unique: at an end of the front that lies in a corner of the box,
+    any larger price of the one objective can be made good by one of the bound. The smallest is the slope of the front
+    that leads away from there.
+    """
+    import numpy as np
+    from scipy.optimize import nnls
+
+    size, count = len(point), len(view.misses)
+    sides = np.vstack([np.reshape(view.miss_slopes, (count, size)), -np.eye(size), np.eye(size)])
+    room = np.concatenate([np.abs(view.misses), np.asarray(point), 1 - np.asarray(point)])
+    matrix = np.vstack([sides.T, np.diag(room), _SMALL * np.eye(len(room))])
+    found, _ = nnls(matrix, np.concatenate([-np.asarray(view.slope), np.zeros(2 * len(room))]))
+    return found

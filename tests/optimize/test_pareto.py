@@ -133,12 +133,20 @@ def test_of_the_designs_that_share_the_best_the_end_is_the_undominated_one():
     assert result.points[0].second == pytest.approx(1, abs=1e-4)
 
 
+def test_the_slope_at_an_end_in_a_corner_is_the_one_sided_one():
+    """Catches a multiplier that the bound's may stand in for: ZDT2 with x and y >= 0.2, so v = 2.8 - u^2/2.8."""
+    result = front(toys.study(points=3, x=0.4, lower=0.2, upper=1.0), toys.zdt2)
+    assert [point.first for point in result.anchors] == pytest.approx([0.2, 1.0])
+    assert [point.slope for point in result.anchors] == pytest.approx([-2.8 / 0.4, -2.8 / 2.0], rel=1e-3)
+
+
 @pytest.mark.parametrize("method", PARETO_METHODS)
 def test_objectives_without_a_conflict_have_a_front_of_one_point(method):
     result = front(toys.study(method=method, lower=-1.0, upper=5.0), toys.friends)
     (only,) = result.points
     assert (only.first, only.second) == pytest.approx((1.0, 5.0), abs=1e-4)
     assert not result.conflicting
+    assert only.slope is None
     assert "do not conflict" in result.stop_reason
     assert result.hypervolume is result.reference is None
 
