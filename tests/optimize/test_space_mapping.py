@@ -13,7 +13,9 @@ from fluxbore.optimize.archive import Archive
 from fluxbore.optimize.evaluation import NOT_CONVERGED, OK, Evaluation, Norm, failure
 from fluxbore.optimize.evaluator import Evaluator
 from fluxbore.optimize.executor import SerialExecutor
+from fluxbore.optimize.journal import Journal
 from fluxbore.optimize.problem import Merit, box, resolve_limits
+from fluxbore.optimize.search import run_search
 from fluxbore.optimize.space_mapping import manifold, run_mapping
 from fluxbore.optimize.space_mapping_network import Coarse, network_model
 from fluxbore.optimize.space_mapping_response import response
@@ -313,3 +315,27 @@ def test_a_norm_lends_its_slope_to_the_maximum():
     assert found.values == pytest.approx([-0.9, -0.4])
     assert found.slopes[0] == pytest.approx([-0.4, -0.8])
     assert found.slopes[1] == pytest.approx([0.1 * 4 * 1.2, -0.2 * 4 * 1.2])
+
+
+def test_a_search_with_it_replays_over_its_journal(tmp_path, monkeypatch):
+    """Catches a study's `network = "manifold"` that is not heard, and a proposal that depends on what is remembered."""
+    monkeypatch.setenv("TOY_LOG", str(tmp_path / "trace"))
+    spec = toy.actuator_study(network="manifold")
+    with Journal(tmp_path / "j") as journal:
+        first = run_search(spec, journal, SerialExecutor(), None, toy.actuator_like)
+    calls = (tmp_path / "trace").read_text().splitlines()
+    with Journal(tmp_path / "j") as journal:
+        second = run_search(spec, journal, SerialExecutor(), None, toy.actuator_like)
+    assert first.stop_reason.startswith("The mapping converged: ")
+    assert [made.values for made in second.history] == [made.values for made in first.history]
+    assert second.stop_reason == first.stop_reason
+    assert second.reused == len(second.history)
+    assert len((tmp_path / "trace").read_text().splitlines()) == 2 * len(calls) - len(first.history)
+    plain = run_search(
+        toy.actuator_study(max_evaluations=400, relative_tolerance=1e-8),
+        None,
+        SerialExecutor(),
+        None,
+        toy.actuator_like,
+    )
+    assert first.best.objective == pytest.approx(plain.best.objective, rel=2e-4)
