@@ -103,7 +103,7 @@ def linear_model(evaluator: Evaluator, tolerances: Sequence[Tolerance], needed: 
 
     Raises DesignError where the nominal design, or a figure that is needed, cannot be evaluated.
     """
-    keys = tuple(item.key for item in tolerances)
+    keys, needed = tuple(item.key for item in tolerances), tuple(dict.fromkeys(needed))
     [done] = replace(evaluator, gradient=keys).all([{}])
     nominal = done.evaluation
     if not nominal.ok:
@@ -125,13 +125,13 @@ def linear_model(evaluator: Evaluator, tolerances: Sequence[Tolerance], needed: 
         name: Subject(name, float(figures[name] or 0.0), LinearSum(tuple(tolerances), row), name in exact)
         for name, row in slopes.items()
     }
-    for name in dict.fromkeys(needed):
+    for name in needed:
         if name not in FIGURES:
             if name not in evaluator.base.values:
                 raise DesignError(f"study.production cannot be analysed: {name} of the design is not known.")
             row, known = _key_slopes(evaluator, tolerances, name)
             subjects[name] = Subject(name, evaluator.base.number(name), LinearSum(tuple(tolerances), row), known)
-    return LinearModel(nominal, tuple(dict.fromkeys(needed)), subjects, evaluations, reused)
+    return LinearModel(nominal, needed, subjects, evaluations, reused)
 
 
 def _slopes(nominal: Evaluation, keys: Sequence[str]) -> Iterator[tuple[str, tuple[float, ...]]]:
