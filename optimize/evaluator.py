@@ -81,7 +81,10 @@ class Evaluator:
             indices = waiting[keys[outcome.index]]
             evaluation = outcome.value or failure(self.fidelity, FAILED, outcome.failure or "The evaluation failed.")
             if self.journal is not None:
-                evaluation = self.journal.put(keys[outcome.index], self.kind, designs[indices[0]], evaluation)
+                values = designs[indices[0]]
+                evaluation = self.journal.put(
+                    keys[outcome.index], self.kind, values, evaluation, self._plain_key(values)
+                )
             else:
                 evaluation = settled(evaluation)
             for index in indices:
@@ -103,6 +106,10 @@ class Evaluator:
             return None, _unbuilt(self.fidelity, error)
         key = design_key(spec, self.fidelity, self.evaluate, self.gradient)
         return key, self.journal.get(key) if self.journal is not None else None
+
+    def _plain_key(self, values: Mapping[str, Value]) -> str | None:
+        """The design's key without derivatives, so that its record also serves whoever asks for none."""
+        return design_key(self.design(values), self.fidelity, self.evaluate) if self.gradient else None
 
 
 def _evaluate(task: tuple[Spec, Fidelity, Any, tuple[str, ...]]) -> Evaluation:

@@ -11,12 +11,13 @@ import json
 import math
 import os
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
 
 from fluxbore.design.errors import OutputError
-from fluxbore.optimize.evaluation import FAILED, Evaluation, from_plain, to_plain
+from fluxbore.optimize.evaluation import FAILED, OK, Evaluation, from_plain, to_plain
 
 
 class Journal:
@@ -34,6 +35,7 @@ class Journal:
         """
         self.path = Path(path)
         self._places: dict[str, tuple[int, int]] = {}
+        self._plain: dict[str, tuple[int, int]] = {}  # records with derivatives, by their keys without
         try:
             self._file, self.made = _open_locked(self.path)
         except OSError as error:
@@ -57,23 +59,33 @@ class Journal:
         return len(self._places)
 
     def __contains__(self, key: str) -> bool:
-        return key in self._places
+        return key in self._places or key in self._plain
 
     def get(self, key: str) -> Evaluation | None:
-        """The evaluation recorded under ``key``. A design that failed by a crash is not given, so it is tried again."""
-        place = self._places.get(key)
-        if place is None:
-            return None
-        record = _record(self._bytes(*place))
-        return None if record is None else record[1]
+        """The evaluation recorded under ``key``. A design that failed by a crash is not given, so it is tried again.
 
-    def put(self, key: str, kind: str, values: Mapping[str, Any], evaluation: Evaluation) -> Evaluation:
+        A sound design that is recorded with derivatives only is given under its key without them as if there were none.
+        """
+        place = self._places.get(key)
+        if place is not None:
+            record = _record(self._bytes(*place))
+            return None if record is None else record[1]
+        place = self._plain.get(key)
+        record = None if place is None else _record(self._bytes(*place))
+        return None if record is None else replace(record[1], gradient=None, norms=None)
+
+    def put(
+        self, key: str, kind: str, values: Mapping[str, Any], evaluation: Evaluation, plain: str | None = None
+    ) -> Evaluation:
         """Record one design on the disk; returns the evaluation exactly as `get` will give it.
 
         kind : what asked for it ("sweep", "search"); values : the moved keys' values, for whoever reads the file.
+        plain : the design's key without the derivatives that ``key`` asks for.
         Raises OutputError where the disk is full or gone.
         """
         record = {"key": key, "kind": kind, "values": _strict(values), "evaluation": _strict(to_plain(evaluation))}
+        if plain is not None:
+            record["plain"] = plain
         line = json.dumps(record, allow_nan=False, separators=(",", ":")).encode() + b"\n"
         begin = os.fstat(self._file).st_size
         try:
@@ -85,9 +97,15 @@ class Journal:
             # Half a line would spoil the next record as well.
             os.ftruncate(self._file, begin)
             raise OutputError(f"{self.path} cannot be written: {error.strerror or error}.") from error
-        if evaluation.status != FAILED:
-            self._places[key] = (begin, len(line))
+        self._remember(key, plain, evaluation.status, (begin, len(line)))
         return _evaluation(record)
+
+    def _remember(self, key: str, plain: object, status: str, place: tuple[int, int]) -> None:
+        if status != FAILED:
+            self._places[key] = place
+        # What failed with derivatives may succeed without.
+        if status == OK and isinstance(plain, str):
+            self._plain[plain] = place
 
     def close(self) -> None:
         """Release the file and its lock; closing twice does nothing."""
@@ -117,8 +135,8 @@ class Journal:
             for line in file:
                 record = _record(line)
                 whole = line.endswith(b"\n")
-                if record is not None and record[1].status != FAILED:
-                    self._places[record[0]] = (begin, len(line))
+                if record is not None:
+                    self._remember(record[0], record[2], record[1].status, (begin, len(line)))
                 if not whole and record is not None:
                     os.write(self._file, b"\n")  # only the line's end was torn off
                 elif not whole:
@@ -131,14 +149,14 @@ class Journal:
             return file.read(length)
 
 
-def _record(line: bytes) -> tuple[str, Evaluation] | None:
-    """Key and evaluation that a line holds, or None where it holds none. No proper prefix of a JSON object is one."""
+def _record(line: bytes) -> tuple[str, Evaluation, object] | None:
+    """Key, evaluation and key without derivatives of a line, or None: no proper prefix of a JSON object is one."""
     try:
         record = json.loads(line)
-        key, evaluation = record["key"], _evaluation(record)
+        key, evaluation, plain = record["key"], _evaluation(record), record.get("plain")
     except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
         return None
-    return (key, evaluation) if isinstance(key, str) and isinstance(evaluation.status, str) else None
+    return (key, evaluation, plain) if isinstance(key, str) and isinstance(evaluation.status, str) else None
 
 
 def _evaluation(record: Mapping[str, Any]) -> Evaluation:

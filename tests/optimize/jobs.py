@@ -81,6 +81,6 @@ def slow_rosenbrock(design, fidelity="fem"):
     return toy.rosenbrock(design, fidelity)
 
 
-def search_study():
-    """A search of a few hundred designs, all of them by the derivative-free way."""
-    return toy.rosenbrock_study(algorithm="ISRES", max_evaluations=250)
+def search_study(designs):
+    """A search of so many designs, without derivatives."""
+    return toy.rosenbrock_study(algorithm="ISRES", max_evaluations=designs)

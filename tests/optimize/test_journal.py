@@ -2,6 +2,7 @@
 
 import json
 import math
+from dataclasses import replace
 
 import pytest
 import toy
@@ -10,7 +11,7 @@ from hypothesis import strategies as st
 
 from fluxbore.design.errors import OutputError
 from fluxbore.design.performance import Performance
-from fluxbore.optimize.evaluation import FAILED, INVALID, NOT_CONVERGED, OK, Evaluation, failure, to_plain
+from fluxbore.optimize.evaluation import FAILED, INVALID, NOT_CONVERGED, OK, Evaluation, Norm, failure, to_plain
 from fluxbore.optimize.journal import Journal, settled
 
 EVALUATION = toy.plain(toy.spec(x=1 / 3, y=math.pi))
@@ -136,3 +137,23 @@ def test_a_place_that_cannot_be_written_is_one_sentence(tmp_path):
         Journal(tmp_path / "nowhere" / "j")
     with pytest.raises(OutputError, match=r"cannot be written: "):
         Journal(tmp_path)
+
+
+def test_a_record_with_derivatives_serves_a_request_without(tmp_path):
+    """Catches a sweep that computes again what a search has computed with more, and derivatives where none belong."""
+    rich = replace(EVALUATION, gradient={"force_constant": {toy.X: 0.5}}, norms={"stray_field": Norm(8.0, 0.1)})
+    unsound = replace(failure("fem", NOT_CONVERGED, "Why."), gradient={})
+    with Journal(tmp_path / "j") as journal:
+        journal.put("with", "search", {}, rich, "without")
+        journal.put("unsound with", "search", {}, unsound, "unsound")
+        live = journal.get("without")
+    with Journal(tmp_path / "j") as journal:
+        assert len(journal) == 2
+        assert journal.get("with").gradient == rich.gradient
+        assert journal.get("with").norms == rich.norms
+        assert same(journal.get("without"), settled(EVALUATION))
+        assert same(live, settled(EVALUATION))
+        assert journal.get("unsound") is None, "it may converge without"
+        other = replace(EVALUATION, warnings=("A plain record of its own.",))
+        journal.put("without", "sweep", {}, other)
+        assert journal.get("without").warnings == other.warnings

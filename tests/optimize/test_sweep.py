@@ -1,14 +1,7 @@
-"""Sweeps: one row for every design whatever becomes of it, and after any number of kills the same table."""
+"""Sweeps: one row for every design whatever becomes of it, and nothing computed twice."""
 
 import json
-import os
-import random
-import signal
-import subprocess
-import sys
-import time
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 import toy
@@ -17,12 +10,11 @@ from fluxbore.design.errors import SpecError
 from fluxbore.design.keys import Alternatives
 from fluxbore.design.study import Axis, Sweep
 from fluxbore.optimize.evaluation import FAILED, INVALID, NOT_CONVERGED, OK
+from fluxbore.optimize.evaluator import Evaluator
 from fluxbore.optimize.executor import SerialExecutor, local_executor
 from fluxbore.optimize.journal import Journal
 from fluxbore.optimize.sweep import recorded_sweeps, run_sweeps
 from fluxbore.optimize.table import results_table
-
-SCRIPT = Path(__file__).with_name("sweep_script.py")
 
 
 @pytest.fixture
@@ -142,52 +134,29 @@ def test_axes_that_over_determine_the_actuator_are_an_error():
     """Catches a table in which every single row repeats what is wrong with the specification."""
     either = Alternatives((toy.X, toy.Y), 1, "y = 1 - x")
     spec = toy.spec(sweeps=(toy.square(),))
-    spec = replace(spec, kind=replace(toy.TOY, alternatives=(either,)), given={toy.X: 1.0, toy.N: 1})
+    kind = replace(toy.TOY, alternatives=(either,), resolve=lambda given: {toy.Y: 1 - given[toy.X], **given})
+    spec = replace(spec, kind=kind, given={toy.X: 1.0, toy.N: 1})
     with pytest.raises(SpecError, match="over-determined"):
         run_sweeps(spec, None, SerialExecutor(), evaluate=toy.plain)
 
 
-def test_killed_at_any_moment_it_ends_with_the_same_table(tmp_path):
-    """The kill test. Catches a lost or doubled row, a half-written table, and a finished design computed again."""
-    spec = toy.two_sweeps(points=9)
-    expected = results_table(spec, run_sweeps(spec, None, SerialExecutor(), evaluate=toy.plain))
-    chance = random.Random(20)
-    folder, trace = tmp_path / "out", tmp_path / "trace"
-    environment = os.environ | {
-        "TOY_LOG": str(trace),
-        "PYTHONPATH": os.pathsep.join(part for part in sys.path if part),
-    }
-    recorded: set[str] = set()
-    kills = 0
-    for attempt in range(40):
-        before = len(lines(trace))
-        process = subprocess.Popen([sys.executable, str(SCRIPT), str(folder)], env=environment, stderr=subprocess.PIPE)
-        if attempt < 12:
-            # Half of the kills at a random moment, half just after a random number of designs.
-            if attempt % 2:
-                time.sleep(chance.uniform(0.0, 0.6))
-            else:
-                goal = before + chance.randint(1, 12)
-                while process.poll() is None and len(lines(trace)) < goal:
-                    time.sleep(0.001)
-            process.send_signal(signal.SIGKILL)
-        _, errors = process.communicate()
-        again = [line for line in lines(trace)[before:] if line in recorded]
-        assert again == [], "a design that stood in the journal was computed again"
-        kills += process.returncode == -signal.SIGKILL
-        if process.returncode == 0:
-            break
-        assert process.returncode == -signal.SIGKILL, errors.decode()
-        with Journal(folder / "journal.jsonl") if folder.exists() else Journal(tmp_path / "unused") as journal:
-            recorded = {trace_of(json.loads(line)["values"]) for line in journal.path.read_text().splitlines()}
-    assert kills >= 3, "the machine is so fast that the test is none"
-    assert (folder / "results.csv").read_bytes() == expected.encode()
-    counted = lines(trace)
-    assert len(counted) - len(set(counted)) <= 2 * kills, "only what was in flight may be computed again"
-    assert len(set(counted)) == 9 * 9 - 1 + 4  # the corner cannot be built
+def sloped(design, fidelity="fem", gradient=()):
+    """The toy with derivatives that are no more than there."""
+    made = toy.plain(design, fidelity)
+    return replace(made, gradient={"force_constant": dict.fromkeys(gradient, 0.5)}) if gradient else made
 
 
-def trace_of(values):
-    """The line that a design of these values leaves in the trace."""
-    whole = {toy.X: 1.0, toy.Y: 1.0, toy.N: 1, **values}
-    return f"{whole[toy.X]!r} {whole[toy.Y]!r} {whole[toy.N]}"
+def test_a_sweep_takes_from_a_gradient_search_what_it_computed(trace, tmp_path):
+    """Catches the second computation of a design whose figures stand in the journal beside their derivatives."""
+    spec = toy.two_sweeps(3)
+    designs = [{toy.X: 0.0, toy.Y: 0.0}, {toy.X: 0.0, toy.Y: 5.0}]
+    with Journal(tmp_path / "j") as journal:
+        search = Evaluator(spec.for_study(), SerialExecutor(), journal, "fem", sloped, "search", (toy.X,))
+        first = search.all(designs)
+        assert [item.evaluation.gradient for item in first] == [{"force_constant": {toy.X: 0.5}}] * 2
+        found = run_sweeps(spec, journal, SerialExecutor(), evaluate=sloped)
+        assert [item.reused for item in search.all(designs)] == [True, True]
+    assert len(lines(trace)) == len(set(lines(trace)))
+    fresh = run_sweeps(spec, None, SerialExecutor(), evaluate=sloped)
+    assert results_table(spec, found) == results_table(spec, fresh)
+    assert [row.evaluation.gradient for row in found[0].rows] == [None] * 9
