@@ -37,7 +37,7 @@ def _coil(name: str, symbol: str, *, optional: bool) -> tuple[Key, ...]:
         length("radius", "mean radius of the winding", f"R_{symbol}"),
         length("inner_radius", "inner radius of the winding", f"a_{symbol}"),
         length("thickness", "radial thickness of the winding", f"d_{symbol}"),
-        length("half_height", "half the axial height of the winding", f"h_{symbol}/2"),
+        length("half_height", "half height of the winding along the axis", f"h_{symbol}/2"),
         Key(
             f"actuator.{name}.position",
             "z of the winding's middle",
@@ -49,7 +49,7 @@ def _coil(name: str, symbol: str, *, optional: bool) -> tuple[Key, ...]:
         ),
         Key(
             f"actuator.{name}.current_density",
-            "current over the winding's cross-section; positive along +phi",
+            "current density in the winding's cross-section; positive along +phi",
             dimension="current density",
             symbol=f"J_{symbol}",
             minimum=-LARGEST_CURRENT_DENSITY,

@@ -72,7 +72,7 @@ def test_complex_values_pass_through():
     [
         ({"coil_1.thickness": ""}, "The specification is under-determined: give exactly two of"),
         ({"coil_1.radius": "50 mm"}, "The specification is over-determined: give exactly two of"),
-        ({"coil_1.current_density": ""}, "actuator.coil_1.current_density (current over"),
+        ({"coil_1.current_density": ""}, "actuator.coil_1.current_density (current density in"),
         ({"coil_2.radius": "1 m"}, "The specification is under-determined: give exactly two of actuator.coil_2"),
         ({"coil_3.position": "1 m"}, "give exactly two of actuator.coil_3.radius"),
         ({"coil_1.half_height": "0 mm"}, "actuator.coil_1.half_height must exceed 0 mm; got 0 mm."),

@@ -1,14 +1,17 @@
 """The exact field and energy of solid windings: against closed forms, published inductances and loops of current."""
 
+import json
 import math
 from dataclasses import replace
 from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 import pytest
 from numpy.polynomial.legendre import leggauss
 from scipy.special import ellipe, ellipk
 
+from fluxbore.cli import main
 from fluxbore.design.bh_curve import MU_0
 from fluxbore.design.coils import Coil
 from fluxbore.design.coils_energy import mutual_energy, stored_energy
@@ -177,3 +180,21 @@ def test_the_hottest_spot_is_a_maximum_to_ten_digits():
     best = float(magnitude(STORE, *place(STORE[0], spot.side, spot.share)))
     around = magnitude(STORE, *place(STORE[0], spot.side, spot.share + np.linspace(-0.01, 0.01, 2001)))
     assert best >= around.max() * (1 - 1e-10)
+
+
+def test_the_finite_elements_find_the_same_energy_and_field(tmp_path, capsys):
+    """Catches an error that all closed forms share: the exported model, solved in open space, knows none of them."""
+    store = Path(__file__).parents[2] / "examples" / "team22.toml"
+    sizes = [f"actuator.coil_2.{name}" for name in ("radius=3.08 m", "half_height=0.239 m", "thickness=0.394 m")]
+    changes = [word for size in sizes for word in ("--set", size)]
+    assert main(["export", str(store), "--format", "fem", "-o", str(tmp_path), *changes]) == 0
+    capsys.readouterr()
+    (model,) = tmp_path.glob("*.fem")
+    assert main(["solve", str(model), "--open-boundary", "--json", "--point", "0,0", "--point", "10000,4000"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    figures = found["accuracy"]["figures"]
+    assert figures["energy"]["relative"] < 1e-3
+    assert abs(found["energy"] - float(stored_energy(STORE))) < 3 * figures["energy"]["error"]
+    for point, place_ in zip(found["points"], ((0.0, 0.0), (10.0, 4.0)), strict=True):
+        expected = sum(np.array(flux_density(coil, *place_)) for coil in STORE)
+        assert np.abs(np.array(point["B"]) - expected).max() < 2e-3 * np.hypot(*expected)
