@@ -11,18 +11,19 @@ from functools import cached_property
 from fluxbore.design.errors import FluxboreError
 from fluxbore.design.spec import Spec
 from fluxbore.design.study import Objective, Variable
-from fluxbore.optimize import elastic, rounding
+from fluxbore.optimize import rounding
 from fluxbore.optimize.archive import Archive
 from fluxbore.optimize.enumeration import Counts, distance, in_turn, show
 from fluxbore.optimize.evaluation import Evaluation
 from fluxbore.optimize.evaluator import Evaluated, Evaluator
 from fluxbore.optimize.network_start import network_optimum, objective_size
 from fluxbore.optimize.optimality import optimality
-from fluxbore.optimize.outcome import Candidate, Conflict, Limit, Optimality, SearchEnding, SearchResult
-from fluxbore.optimize.problem import Box, Merit, Point, better, candidate, resolve_limits, show_limit, violation
+from fluxbore.optimize.outcome import Candidate, Limit, Optimality, SearchEnding, SearchResult
+from fluxbore.optimize.problem import Box, Merit, Point, better, candidate, resolve_limits
 from fluxbore.optimize.progress import Tracker
 from fluxbore.optimize.slopes import Slopes
 from fluxbore.optimize.stages import Stages, mishap
+from fluxbore.optimize.verdict import conflict_of, joined, shortfall
 
 
 @dataclass
@@ -63,8 +64,8 @@ class SearchRun:
         reason = remark + self.search_all(turns, first[outside:], done[outside:], limits, merit)
         best = self.best
         reason += self.round_off()
-        history, best_so_far = self.joined()
-        conflict = self.conflict() if self.best is None else None
+        history, best_so_far = joined([stages.archive for stages in self.stages], self.objective)
+        conflict = conflict_of(self.stages) if self.best is None else None
         return SearchResult(
             start=start,
             network_start=network,
@@ -72,7 +73,7 @@ class SearchRun:
             best_so_far=best_so_far,
             best=self.best,
             rounded=self.rounded,
-            stop_reason=reason + self.shortfall(conflict),
+            stop_reason=reason + (shortfall(self.base, history, conflict) if self.best is None else ""),
             seconds=time.monotonic() - begin,
             ending=self.ending,
             reused=sum(stages.archive.reused for stages in self.stages),
@@ -158,6 +159,7 @@ class SearchRun:
             if i and share < 1:
                 break
             stages = self.made(counts, limits, merit, max(share, len(first)) if i == 0 else share)
+            stages.spare = kept if i == len(turns) - 1 else 0
             try:
                 begun = first if i == 0 else self.warm(counts)
             except KeyboardInterrupt:
@@ -253,20 +255,6 @@ class SearchRun:
             return f" The rounding to the workshop's steps failed: {mishap(error)}"
         return ""
 
-    def joined(self) -> tuple[tuple[Candidate, ...], tuple[int | None, ...]]:
-        """The history of all combinations, one after the other, and the best so far at each step of it."""
-        history = [made for stages in self.stages for made in stages.archive.history]
-        best_so_far: list[int | None] = []
-        offset = 0
-        best: int | None = None
-        for stages in self.stages:
-            for own in stages.archive.best_so_far:
-                if own is not None and (best is None or better(history[offset + own], history[best], self.objective)):
-                    best = offset + own
-                best_so_far.append(best)
-            offset += len(stages.archive.history)
-        return tuple(history), tuple(best_so_far)
-
     def optimality(self, best: Candidate | None) -> Optimality | None:
         """Of the best design before the rounding; a search without derivatives asks for them here, if there are any.
 
@@ -287,29 +275,6 @@ class SearchRun:
         except Exception:  # the design is found; what its limits cost is not worth losing it
             return None
         return None
-
-    def conflict(self) -> Conflict | None:
-        """What keeps the least infeasible design of all from being feasible."""
-        if not self.stages:
-            return None
-        nearest = min(self.stages, key=lambda stages: min(map(violation, stages.archive.history), default=math.inf))
-        return elastic.conflict(nearest.slopes, nearest.archive.history)
-
-    def shortfall(self, conflict: Conflict | None) -> str:
-        """Where no design was feasible: which limits the nearest one missed, by how much, and which are in conflict."""
-        history, _ = self.joined()
-        if self.best is not None or not history:
-            return ""
-        nearest = min(history, key=violation)
-        if math.isinf(violation(nearest)):
-            return " None of its designs could be evaluated in full."
-        missed = [
-            f"{item.limit.subject} {item.limit.sense} {show_limit(self.base, item.limit)} by {-item.margin:.2%}"
-            for item in nearest.checks
-            if not item.satisfied and item.margin is not None
-        ]
-        words = f" No design met every limit; the nearest missed {' and '.join(missed)}."
-        return words + (elastic.describe(self.base, conflict) if conflict is not None else "")
 
 
 def _counts(stages: Stages) -> Counts:

@@ -41,6 +41,7 @@ class Stages:
     back_off : room to leave to them (relative). Searches close in on a limit from both sides; this much room makes
     what they find feasible.
     propose : the search to run in place of NLopt's, or None.
+    spare : further designs for the time when nothing feasible was found: there will be nothing to round.
     ending : how `run` ended.
     """
 
@@ -52,6 +53,7 @@ class Stages:
     back_off: float
     slopes: Slopes
     propose: Propose | None = None
+    spare: int = 0
     ending: SearchEnding = "done"
     penalties: dict[Point, float] = field(default_factory=dict)
 
@@ -105,6 +107,7 @@ class Stages:
         archive.reserve = 0
         if archive.best is not None or not self.held or nearest is None or not nearest.evaluation.ok:
             return reason
+        archive.budget += self.spare
         try:
             try:
                 if self.algorithm not in GRADIENT_ALGORITHMS:

@@ -116,3 +116,7 @@ def unkept(design, fidelity="fem", gradient=()):
     evaluation = rosenbrock(design, fidelity, gradient)
     kept = {name: row for name, row in (evaluation.gradient or {}).items() if name != "stray_field"}
     return replace(evaluation, gradient=kept or None)
+
+
+def nothing(design, fidelity="fem", gradient=()):
+    return failure(fidelity, NOT_CONVERGED, "No convergence.")
