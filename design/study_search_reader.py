@@ -14,7 +14,7 @@ _SEARCH = Search()
 _PARETO = Pareto(Objective("", False))
 
 SEARCH_KEYS = (
-    Key("study.search.algorithm", "NLopt's algorithm", "word", choices=ALGORITHMS, default=_SEARCH.algorithm),
+    Key("study.search.algorithm", "NLopt's algorithm", "word", choices=ALGORITHMS, default="auto"),
     Key(
         "study.search.max_evaluations",
         "most designs by finite elements",

@@ -7,22 +7,47 @@ from pathlib import Path
 from fluxbore.design.materials import standard
 from fluxbore.design.performance import FIGURES
 from fluxbore.design.spec import KINDS
+from fluxbore.design.study import DISTRIBUTIONS
+from fluxbore.design.study_production_reader import PRODUCTION_KEYS
+from fluxbore.design.study_search_reader import PARETO_KEYS, SEARCH_KEYS
 from fluxbore.design.units import DIMENSIONS
 from fluxbore.fem.femm_edit import BOUNDARY, CIRCUIT, KIND_OF_BOUNDARY, MATERIAL, POINT
 
 TARGET = Path(__file__).with_suffix(".md")
 
 ALGORITHMS = """
-| algorithm | what it is | limits on figures | when |
-|---|---|---|---|
-| `COBYLA` | linear models, local | its own | the default: few variables, smooth figures |
-| `BOBYQA` | quadratic models, local | by an augmented Lagrangian, which costs designs | without limits on figures |
-| `DIRECT-L` | division of the box, global | by a penalty | several optima, two or three variables |
-| `CRS2` | random population, global | by a penalty | several optima, more variables |
-| `ISRES` | evolution, global | its own | many limits; hundreds of designs |
+| algorithm | what it is | derivatives | limits on figures | when |
+|---|---|---|---|---|
+| `auto` | `SLSQP` where the model gives derivatives, else `COBYLA` | | | the default |
+| `SLSQP` | sequential quadratic programming, local | yes | its own | few variables, limits that decide |
+| `MMA` | moving asymptotes, local | yes | its own | many variables, many limits |
+| `CCSAQ` | convex separable quadratics, local | yes | its own | as `MMA`, where that one stalls |
+| `MLSL` | `SLSQP` from many places, global | yes | its own | several optima |
+| `COBYLA` | linear models, local | no | its own | few variables, smooth figures |
+| `BOBYQA` | quadratic models, local | no | by an augmented Lagrangian, dear | without limits on figures |
+| `DIRECT-L` | division of the box, global | no | by a penalty | several optima, two or three variables |
+| `CRS2` | random population, global | no | by a penalty | several optima, more variables |
+| `ISRES` | evolution, global | no | its own | many limits; hundreds of designs |
 
-All are NLopt's. Limits on variables are taken into their bounds. A global algorithm gets the larger part of
-`max_evaluations`, a local search from its best design the rest.
+All are NLopt's. Limits on variables are taken into their bounds; counts are enumerated.
+"""
+
+STUDY = """
+| key | holds | meaning |
+|---|---|---|
+| `study.objective` | "maximise FIGURE" or "minimise FIGURE" | what the search is for |
+| `study.hold` | dotted keys that have alternatives | what stays while variables move |
+| `study.variables.N.key` | a dotted key | a quantity, a number, or a count of the actuator's parts |
+| `study.variables.N.lower`, `.upper` | as the key | the bounds |
+| `study.variables.N.resolution` | a step of the key | the workshop's; not for counts |
+| `study.constraints.N.figure`, or `.key` | a figure or a dotted key | what is limited |
+| `study.constraints.N.lower`, `.upper` | as the figure or key, "start" or "1.1 x start" | the limits |
+| `study.sweeps.N.axes` | tables of `key` with `values`, or with `from`, `to`, `step` | a full grid |
+| `study.pareto.against` | as the objective | the front's second goal |
+| `study.production.tolerances.N.key` | a dotted key | a continuous quantity |
+| `study.production.tolerances.N.tolerance` | a step of the key | to both sides of the nominal value |
+| `study.production.tolerances.N.plus`, `.minus` | steps of the key, at least zero | where the two sides differ |
+| `study.production.tolerances.N.distribution` | DISTRIBUTIONS | the limits of a normal one are at 3 sigma |
 """
 
 FEMM_UNITS = {
@@ -83,6 +108,18 @@ def femm_keys() -> list[str]:
     return [*lines, *FEMM_GROUPS.strip().splitlines()]
 
 
+def study_keys() -> list[str]:
+    """The section on what a specification asks to be studied."""
+    choices = " or ".join(f"`{name}`" for name in DISTRIBUTIONS)
+    lines = ["", "## Keys of a study", "", *STUDY.strip().replace("DISTRIBUTIONS", choices).splitlines()]
+    for key in (*SEARCH_KEYS, *PARETO_KEYS, *PRODUCTION_KEYS):
+        holds = {"word": " or ".join(f"`{name}`" for name in key.choices), "integer": "a whole number"}
+        default = "" if key.default is None else f"; default {key.show(key.default)}"
+        what = key.dimension if key.kind == "quantity" else holds.get(key.kind, "a number")
+        lines.append(f"| `{key.name}` | {what}{default} | {key.doc} |")
+    return lines
+
+
 def page() -> str:
     """The whole file."""
     lines = ["# Reference", "", "Written by `python docs/reference.py` from the program's own tables.", ""]
@@ -102,6 +139,7 @@ def page() -> str:
             )
             default = "" if key.default is None else f"{key.show(key.default)}"
             lines.append(f"| `{key.name}` | {key.symbol} | {holds} | {default} | {key.doc} |")
+    lines += study_keys()
     lines += femm_keys()
     lines += ["", "## Units", "", "| dimension | units |", "|---|---|"]
     lines += [f"| {item.name} | {', '.join(f'`{unit}`' for unit in item.units)} |" for item in DIMENSIONS.values()]

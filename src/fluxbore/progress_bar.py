@@ -64,11 +64,26 @@ def _line(progress: Progress) -> str:
         parts.append(f"{progress.reused} from the journal")
     if progress.failed:
         parts.append(f"{progress.failed} failed")
+    if progress.rate is not None:
+        parts.append(_pace(progress.rate))
     if progress.seconds_left is not None and progress.done < progress.total:
-        parts.append(f"{progress.seconds_left:.0f} s left")
+        parts.append(f"{_duration(progress.seconds_left)} left")
     if progress.best is not None and progress.figure is not None:
         parts.append(f"best {show_figure(progress.figure, progress.best)}{_at(progress.best_values)}")
     return ", ".join(parts)
+
+
+def _pace(rate: float) -> str:
+    """Designs per second or, where they take longer, seconds per design."""
+    return f"{rate:.3g} a second" if rate >= 1 else f"{1 / rate:.3g} s each"
+
+
+def _duration(seconds: float) -> str:
+    """As a person says it: 45 s, 12 min, 3 h 20 min."""
+    minutes = round(seconds / 60)
+    if seconds < 100:
+        return f"{seconds:.0f} s"
+    return f"{minutes} min" if minutes < 100 else f"{minutes // 60} h {minutes % 60} min"
 
 
 def _at(values: Mapping[str, float] | None) -> str:

@@ -88,7 +88,7 @@ def tolerance_text(spec: Spec, result: ToleranceResult) -> str:
     if result.checked is not None:
         how += f", corrected by {result.production.checks} computed in full"
     cost = f", {result.reused} of them from the journal" if result.reused else ""
-    lines = [f"Yield: {_share(result.best_estimate)}; {how}; {result.evaluations} designs evaluated{cost}."]
+    lines = [f"Yield: {_share(result.best_estimate)}; {how}; designs evaluated: {result.evaluations}{cost}."]
     if result.requirements:
         lines += ["", "Limits:"]
     for item in result.requirements:

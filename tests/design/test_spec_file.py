@@ -103,8 +103,7 @@ def test_every_unit_of_every_key_survives(key, data):
 def test_a_study_with_everything_survives():
     study = Study(
         objective=Objective("total_mass", False),
-        variables=(Variable(RING, 1e-3, 2.1e-3), Variable("operating_point.magnet_temperature", 293.15, 353.15, 5.0),
-                   Variable(SETS, 6.0, 9.0, None, True)),
+        variables=(Variable(RING, 1e-3, 2.1e-3), Variable("operating_point.magnet_temperature", 293.15, 353.15, 5.0)),
         constraints=(
             Constraint("stray_field", 1.1, None, True),
             Constraint("force_constant", None, 8.1),
@@ -131,6 +130,13 @@ def test_a_study_with_everything_survives():
     found = again(replace(IPEHLA, study=study)).study
     assert found == study
     assert repr(found) == repr(study)  # what the fingerprint is made of
+
+
+def test_a_count_as_a_variable_survives():
+    study = Study(objective=Objective("total_mass", False), variables=(Variable(SETS, 6.0, 9.0, None, True),))
+    found = again(replace(IPEHLA, study=study)).study
+    assert found == study
+    assert repr(found) == repr(study)
 
 
 def test_a_count_that_a_search_chose_is_written_as_one():

@@ -136,6 +136,11 @@ def test_production():
     assert study(SLIP).production == Production((yoke,))
 
 
+def test_a_search_by_derivatives_is_the_default():
+    assert study("").search.algorithm == "auto"
+    assert study("[study.search]\nseed = 2").search == Search("auto", seed=2)
+
+
 def test_the_search_s_time_and_network():
     found = study('[study.search]\nalgorithm = "auto"\ntime_limit = "10 min"\nnetwork = "manifold"').search
     assert found == Search("auto", time_limit=600.0, network="manifold")
