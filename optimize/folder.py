@@ -19,7 +19,7 @@ from fluxbore.optimize.journal import Journal
 
 MARKER = ".fluxbore.json"
 JOURNAL = "journal.jsonl"
-OUTPUTS = ("results.csv", "results.parquet", "design.toml", "report.html")
+OUTPUTS = ("results.csv", "results.parquet", "front.csv", "tolerance.csv", "design.toml", "report.html")
 """Results at the folder's top that belong to one specification; those of another one do not stay beside them."""
 
 CAD = "cad"
