@@ -142,7 +142,7 @@ ARGUMENTS = {
     "": ["COMMAND"],
     "fly": ["invalid choice: 'fly'"],
     "new": ["TEMPLATE"],
-    "new nope": ['There is a template for ipehla; got "nope".'],
+    "new nope": ["There is a template for ipehla", '; got "nope".'],
     "check": ["SPEC"],
     "check none.toml": ["none.toml cannot be read: No such file or directory."],
     "check .": [". cannot be read: Is a directory."],
@@ -217,9 +217,34 @@ def test_the_real_program_answers_the_same(arguments, tmp_path):
     assert re.fullmatch(r"fluxbore: .*\.\n", done.stderr)
 
 
+MORE = """
+[study.pareto]
+against = "minimise total_mass"
+points = 5
+method = "normal boundary intersection"
+
+[study.production]
+samples = 1000
+checks = 10
+seed = 2
+yield = 0.95
+
+[[study.production.tolerances]]
+key = "actuator.mover.ring_width"
+tolerance = "0.05 mm"
+distribution = "uniform"
+
+[[study.production.tolerances]]
+key = "operating_point.magnet_temperature"
+plus = "5 K"
+minus = "2 K"
+"""
+"""What the example's study does not ask for."""
+
+
 def mutated(draw) -> bytes:
-    """The example with a few random faults in it."""
-    lines = TEXT.splitlines()
+    """The example, and what a study can ask for besides, with a few random faults in it."""
+    lines = (TEXT + MORE).splitlines()
     atoms = [
         "nan", "-inf", "1e400", "0", "-1", "true", '""', '"x"', "[]", "[[]]", "{}", '"1 m m"', '"0 mm"', '"1e9 m"', "1979-05-27",
         '"start"', '["1 mm"]', '"é"', "'''\n\n'''", '"\\u0000"', str(2**63), '{ value = 1, assumed = "x" }', '"-5 mm"', '"N48"',

@@ -26,6 +26,7 @@ def smooth(spec: Spec, gradient=()) -> Evaluation:
     slopes = {
         "force_constant": {key: SLOPES.get(key, 1.0) for key in gradient},
         "stray_field": dict.fromkeys(gradient, -2e-2),
+        "bore_dilation": dict.fromkeys(gradient, 0.0),
     }
     return Evaluation(
         "fem", OK, (), found.performance, gradient=slopes, norms={"stray_field": Norm(exponent=20.0, value=4.9e-4)}
@@ -46,7 +47,11 @@ def folder(tmp_path, monkeypatch):
 def test_the_json_has_derivatives_by_dotted_keys_and_the_maximum_beside_its_norm(capsys):
     assert main(["evaluate", "spec.toml", "--fidelity", "fem", "--gradient", "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
-    assert found["gradient"] == {"force_constant": SLOPES, "stray_field": {RING: -2e-2, YOKE: -2e-2}}
+    assert found["gradient"] == {
+        "force_constant": SLOPES,
+        "stray_field": {RING: -2e-2, YOKE: -2e-2},
+        "bore_dilation": {RING: 0.0, YOKE: 0.0},
+    }
     assert found["norms"] == {"stray_field": {"exponent": 20.0, "value": 4.9e-4}}
     assert found["performance"]["stray_field"] == 5e-4
 
@@ -63,7 +68,8 @@ def test_people_get_millimetres(capsys):
     assert [RING, "-0.3021", "N/A", "per", "mm"] in lines
     assert [YOKE, "+0.044", "N/A", "per", "mm"] in lines
     assert [YOKE, "-0.02", "mT", "per", "mm"] in lines
-    assert "\nstray_field (of its 20-norm, 0.49 mT; the maximum is 0.5 mT)\n" in out
+    assert out.endswith("None of them moves bore_dilation.\n")
+    assert "\nstray_field (by its 20-norm, 0.49 mT; the figure itself is 0.5 mT)\n" in out
 
 
 def test_a_model_without_derivatives_says_so(capsys):
