@@ -94,10 +94,10 @@ class Performance:
         signed=True,
     )
     # The magnets under the worst of no current and peak current.
-    demagnetisation_margin: float | None = _figure(
+    demagnetisation_load: float | None = _figure(
         "fraction",
-        "least (H_cJ - reverse field)/H_cJ in the magnets at temperature, at no current and at the peak current",
-        signed=True,
+        "reverse field in the magnets over their intrinsic coercivity at temperature, by its 8-norm over their volume; "
+        "the worst of no current over the window and the peak current of either sign",
     )
     peak_demagnetised_fraction: float | None = _figure(
         "fraction", "the demagnetised fraction at the peak current, on the q axis of either sign"

@@ -10,12 +10,12 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from fluxbore.fem.element import kernel, shape
+from fluxbore.fem.element import QUADRATURE_POINTS, kernel, shape
 from fluxbore.fem.field import CORNERS_AND_MIDDLES, line_strip
 from fluxbore.fem.mapped import MappedMesh, by_lines
 from fluxbore.fem.mesh import Floats
 from fluxbore.fem.moved_points import node_derivative
-from fluxbore.fem.tubular import TubularSolution
+from fluxbore.fem.tubular import TubularSolution, reverse_fields
 
 EXPONENT = 32.0
 """p. The norm of a peak that fills a tenth of the place is 7 % below it."""
@@ -27,7 +27,7 @@ class Functional:
 
     by_psi : (n,). s, z : (lines,) by the s and z of the grid's lines. limits : (2,) by its own two
     limits in z, where it has such. The others are of an incremental figure: windows (coils, 4), turns (coils,),
-    reluctivity (regions,), poles (2,).
+    reluctivity (regions,), poles (2,); coercivity (regions,) is of a figure of the magnets.
     """
 
     value: float
@@ -39,24 +39,7 @@ class Functional:
     turns: Floats | None = None
     reluctivity: Floats | None = None
     poles: Floats | None = None
-
-    def scaled(self, factor: float) -> Functional:
-        """The figure times a number."""
-
-        def times(part: Floats | None) -> Floats | None:
-            return None if part is None else factor * part
-
-        return Functional(
-            factor * self.value,
-            factor * self.by_psi,
-            factor * self.s,
-            factor * self.z,
-            factor * self.limits,
-            times(self.windows),
-            times(self.turns),
-            times(self.reluctivity),
-            times(self.poles),
-        )
+    coercivity: Floats | None = None
 
 
 def on_lines(grid: MappedMesh, nodes: Floats) -> tuple[Floats, Floats]:
@@ -184,6 +167,51 @@ def line_norm(
     by_s, moved = on_lines(grid, nodes)
     found.s += by_s
     found.z += moved
+    return found
+
+
+def reverse_norm(tubular: TubularSolution, exponent: float = EXPONENT) -> Functional:
+    """The p-norm over the magnets' volume of the field against the magnetisation (A/m), where there is one."""
+    solution, mesh = tubular.solution, tubular.solution.problem.mesh
+    magnets = reverse_fields(tubular)
+    found = _blank(tubular)
+    regions = len(solution.problem.materials)
+    found.reluctivity, found.coercivity = np.zeros(regions), np.zeros(regions)
+    largest = max((float(reverse.max()) for _, _, reverse in magnets), default=0.0)
+    if largest <= 0:
+        return found
+    weight = solution.system.kernel.weight
+    powers = [np.maximum(reverse / largest, 0.0) ** exponent for _, _, reverse in magnets]
+    volume = sum(float(weight[elements].sum()) for _, elements, _ in magnets)
+    integral = sum(
+        float(np.sum(weight[elements] * power)) for (_, elements, _), power in zip(magnets, powers, strict=True)
+    )
+    value = largest * (integral / volume) ** (1 / exponent)
+    found.value = value
+    for (index, elements, reverse), power in zip(magnets, powers, strict=True):
+        rows = solution.system.kernel.curl[elements]
+        material = solution.problem.materials[index]
+        sign = float(np.sign(material.remanence[1]))
+        by_reverse = value / integral * power / np.where(reverse > 0, reverse, 1.0)
+        by_row = np.zeros((*reverse.shape, 2))
+        by_row[..., 0] = -sign * material.components[1] * by_reverse
+        field = np.einsum("mqkn,mn->mqk", rows, solution.psi[mesh.elements[elements]], optimize=True)
+        pull = np.einsum("mqkn,mqk->mn", rows, by_row * weight[elements][..., None], optimize=True)
+        found.by_psi += np.bincount(mesh.elements[elements].ravel(), pull.ravel(), found.by_psi.size)
+        nodes = node_derivative(
+            mesh,
+            elements,
+            rows.reshape(elements.size, -1, 6),
+            weight[elements],
+            shape(QUADRATURE_POINTS),
+            ((by_row, field),),
+            value / exponent * (power / integral - 1 / volume),
+        )
+        by_s, by_z = on_lines(tubular.grid, nodes)
+        found.s += by_s
+        found.z += by_z
+        found.coercivity[index] = sign * float(np.sum(weight[elements] * by_reverse))
+        found.reluctivity[index] = -sign * float(np.sum(weight[elements] * by_reverse * field[..., 0]))
     return found
 
 

@@ -42,6 +42,15 @@ def flux_linkages(solution: Solution) -> Floats:
     return np.array([solution.problem.extent * circuit.density @ solution.psi for circuit in solution.problem.circuits])
 
 
+def synchronous_inductance(solution: Solution) -> float:
+    """Of three phases under balanced current (H), incremental at the solution's state: 2π/3 Σ cᵀ K_T⁻¹ c over Clarke's
+    two current distributions, which is the mean of the self less the mean of the mutual inductances."""
+    phases = np.column_stack([circuit.density for circuit in solution.problem.circuits])
+    angles = 2 * np.pi / 3 * np.arange(phases.shape[1])
+    loads = (phases @ np.column_stack((np.cos(angles), np.sin(angles))))[solution.system.inner]
+    return float(solution.problem.extent / 3 * np.sum(loads * solution.tangent.solve(loads)))
+
+
 def coil_density(mesh: Mesh, coil: CoilWindow) -> Floats:
     """(n,) ∫ φ_i (turns/area) dr dz over one window (turns times shape function, dimensionless)."""
     return circuits(mesh, (coil,))[0].density

@@ -11,10 +11,10 @@ from fluxbore.design.materials import PermanentMagnet
 from fluxbore.fem.asymptotic import open_edges
 from fluxbore.fem.field import along_radius
 from fluxbore.fem.force import axial_force, incremental_thrust
-from fluxbore.fem.linkage import circuits, flux_linkages
+from fluxbore.fem.linkage import circuits, flux_linkages, synchronous_inductance
 from fluxbore.fem.magnetostatics import Settings, Solution, solve
 from fluxbore.fem.mapped import MappedMesh, Subdivision, mapped_mesh
-from fluxbore.fem.mesh import Floats
+from fluxbore.fem.mesh import Floats, Ints
 from fluxbore.fem.newton import Convergence
 from fluxbore.fem.problem import MagneticMaterial, Problem
 from fluxbore.fem.reluctivity import VACUUM_RELUCTIVITY, reluctivity_curve
@@ -70,6 +70,10 @@ class TubularSolution:
         """(3,) of the phases at no current (Wb)."""
         return flux_linkages(self.solution)
 
+    def synchronous_inductance(self) -> float:
+        """Incremental, of the balanced winding (H): a phase's own less its mutual one, means over the three."""
+        return synchronous_inductance(self.solution)
+
 
 def magnetic_material(region: Region) -> MagneticMaterial:
     """How the solver sees a region."""
@@ -111,10 +115,11 @@ def solve_currents(
     currents: Mapping[str, float],
     settings: Settings | None = None,
     refinement: int = 1,
+    near: TubularSolution | None = None,
 ) -> TubularSolution:
-    """The field at given currents (A) by phase, the others at none, begun from no field."""
+    """The field at given currents (A) by phase, the others at none; begun from a near one, or from no field."""
     grid = mapped_mesh(section, R_CELLS, Z_CELLS, refinement, open_rim=True)
-    return _solved(section, grid, position, currents, settings, None)
+    return _solved(section, grid, position, currents, settings, None if near is None else near.solution.psi)
 
 
 def _solved(
@@ -187,19 +192,31 @@ def shell_flux_density(tubular: TubularSolution, radius: float, z_range: tuple[f
     return float(abs(end - start) / (radius * (z_range[1] - z_range[0])))
 
 
-def demagnetised_fraction(tubular: TubularSolution, intrinsic_coercivity: float) -> float:
-    """Share of the magnets' volume in which the field against the magnetisation exceeds the coercivity (A/m)."""
+def reverse_fields(tubular: TubularSolution) -> list[tuple[int, Ints, Floats]]:
+    """Of each magnet its region, its elements (m,) and the field against its magnetisation (A/m) at their quadrature
+    points (m, q)."""
     solution = tubular.solution
-    mesh = solution.problem.mesh
-    volume = beyond = 0.0
+    found = []
     for index, material in enumerate(solution.problem.materials):
         remanence = material.remanence[1]
         if remanence == 0.0:
             continue
-        elements = np.flatnonzero(mesh.region == index)
+        elements = np.flatnonzero(solution.problem.mesh.region == index)
         b_along = solution.flux_density(elements)[..., 0] * np.sign(remanence)
-        reverse = -material.components[1] * (b_along - abs(remanence))
-        weight = solution.system.kernel.weight[elements]
+        found.append((index, elements, -material.components[1] * (b_along - abs(remanence))))
+    return found
+
+
+def demagnetised_fraction(tubular: TubularSolution, intrinsic_coercivity: float) -> float:
+    """Share of the magnets' volume in which the field against the magnetisation exceeds the coercivity (A/m)."""
+    volume = beyond = 0.0
+    for _, elements, reverse in reverse_fields(tubular):
+        weight = tubular.solution.system.kernel.weight[elements]
         volume += float(weight.sum())
         beyond += float(weight[reverse > intrinsic_coercivity].sum())
     return beyond / volume if volume else 0.0
+
+
+def largest_reverse_field(tubular: TubularSolution) -> float:
+    """The largest field against the magnetisation in the magnets (A/m), at the elements' quadrature points."""
+    return max((float(reverse.max()) for _, _, reverse in reverse_fields(tubular)), default=0.0)

@@ -162,17 +162,21 @@ class TubularAdjoint:
         if currents.any():
             load = self._windows.derivative(self._by_phase(currents, adjoints))
             s, z, windows, turns = s + load.s, z + load.z, windows + load.windows, turns + load.turns
-        reluctivity = -residual.reluctivity
+        reluctivity, coercivity = -residual.reluctivity, -residual.coercivity
         for k, item in enumerate(functionals):
             s[:, k] += item.s
             z[:, k] += item.z
-            for total, part in ((windows, item.windows), (turns, item.turns), (reluctivity, item.reluctivity)):
+            for total, part in (
+                (windows, item.windows),
+                (turns, item.turns),
+                (reluctivity, item.reluctivity),
+                (coercivity, item.coercivity),
+                (poles, item.poles),
+            ):
                 if part is not None:
                     total[..., k] += part
-            if item.poles is not None:
-                poles[:, k] += item.poles
         by_r, by_z = breakpoint_derivative(grid, section, s, z)
-        remanence, recoil = self._magnets(reluctivity, -residual.coercivity)
+        remanence, recoil = self._magnets(reluctivity, coercivity)
         flat = np.concatenate(
             (by_r, by_z, windows.reshape(-1, len(functionals)), turns, remanence, recoil, poles), axis=0
         )

@@ -25,7 +25,7 @@ class Model:
 
 MODELS: dict[str, Model] = {
     "coils": Model(coils_figures.by_network, coils_figures.by_fem, gradients=True),
-    "hybrid": Model(hybrid_figures.by_network, hybrid_figures.by_fem),
+    "hybrid": Model(hybrid_figures.by_network, hybrid_figures.by_fem, gradients=True),
 }
 """The model of every kind of actuator, by the kind's name."""
 

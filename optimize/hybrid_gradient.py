@@ -1,0 +1,191 @@
+"""Exact gradients of the hybrid actuator's figures: adjoints for the field, closed forms for the rest.
+
+The adjoints give each position's figures by all that is continuous in its cross-section (`fem.tubular_gradient`); the
+sections' dimensions by the specification's keys are closed forms (`partials`). A maximum over a line, the magnets or
+the window is represented by a p-norm, whose exponent and value come along.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from math import pi
+from typing import Any
+
+import numpy as np
+
+from fluxbore.design.hybrid import HybridActuator
+from fluxbore.design.performance import Performance
+from fluxbore.design.spec import Spec
+from fluxbore.fem import functionals
+from fluxbore.fem.functionals import EXPONENT, Functional
+from fluxbore.fem.tubular import space_vector
+from fluxbore.fem.tubular_gradient import TubularAdjoint
+from fluxbore.optimize.evaluation import Norm, PositionResult
+from fluxbore.optimize.hybrid_field import (
+    LOAD_EXPONENT,
+    Field,
+    field_figures,
+    intrinsic_coercivity,
+    linkage_vector,
+    ranges,
+)
+from fluxbore.optimize.hybrid_jacobian import Jacobians
+from fluxbore.optimize.partials import closed_gradient, differentiable
+
+STEPWISE = ("demagnetised_fraction", "peak_demagnetised_fraction")
+"""Figures that count points: their derivative is zero or does not exist. `demagnetisation_load` stands in for them."""
+
+Complete = Callable[[Spec, Mapping[str, float | None]], Performance]
+"""All figures of a specification from those of its field."""
+
+Floats = Any
+"""Arrays of floats."""
+
+
+def gradient(
+    spec: Spec, field: Field, positions: Sequence[PositionResult], keys: Sequence[str], complete: Complete
+) -> tuple[dict[str, dict[str, float]], dict[str, Norm]]:
+    """Figure -> key -> derivative (SI), and the norms of those figures that are maxima or follow from one.
+
+    positions : of the window, as the evaluation has them. Keys that are not continuous are passed over.
+    """
+    base = spec.pinned(keys)
+    jacobians = Jacobians(base, field, differentiable(base, keys))
+    if not jacobians.keys:
+        return {}, {}
+    slopes, norms = _field_slopes(base, field, positions, jacobians)
+    true = field_figures(spec, field, positions)
+    smooth: dict[str, float | None] = {**true, **norms}
+
+    def completed(moved: Spec, step: float, key: str) -> Performance:
+        place = jacobians.keys.index(key)
+        shifted = {
+            name: None if value is None else value + step * float(slopes[name][place]) if name in slopes else value
+            for name, value in smooth.items()
+        }
+        return complete(moved, shifted)
+
+    found = closed_gradient(base, jacobians.keys, completed, without=STEPWISE)
+    exact, standing_in = complete(base, true), complete(base, smooth)
+    replaced = {
+        name: Norm(EXPONENT, value)
+        for name in found
+        if (value := getattr(standing_in, name)) is not None and value != getattr(exact, name)
+    }
+    return found, replaced
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Share:
+    """A functional of one state, and its share in a figure: d figure / d functional. limits : whose z it has."""
+
+    figure: str
+    functional: Functional
+    weight: float
+    limits: str | None = None
+
+
+class _Shares:
+    """What each state gives to each figure."""
+
+    def __init__(self, states: int) -> None:
+        self.of_state: list[list[_Share]] = [[] for _ in range(states)]
+        self.norms: dict[str, float] = {}
+
+    def add(self, figure: str, made: Sequence[Functional], weights: Sequence[float], limits: str | None = None) -> None:
+        """A figure that is the sum of weight times functional over the first states."""
+        for own, functional, weight in zip(self.of_state, made, weights, strict=False):
+            own.append(_Share(figure, functional, weight, limits))
+
+    def add_norm(self, figure: str, made: Sequence[Functional], limits: str | None = None) -> None:
+        """A figure that is the largest of the states', by its norm."""
+        value, weights = functionals.norm(np.array([abs(item.value) for item in made]), EXPONENT)
+        signs = [1.0 if item.value >= 0 else -1.0 for item in made]
+        self.norms[figure] = value
+        self.add(figure, made, [sign * weight for sign, weight in zip(signs, weights, strict=True)], limits)
+
+
+def _field_slopes(
+    spec: Spec, field: Field, positions: Sequence[PositionResult], jacobians: Jacobians
+) -> tuple[dict[str, Floats], dict[str, float]]:
+    """Figure of the field -> derivatives by the Jacobians' keys, and the p-norms of its maxima."""
+    adjoints = [TubularAdjoint(state) for state in (*field.window, *field.peaks)]
+    shares = _shares(spec, field, positions, adjoints)
+    count = len(field.window)
+    total: dict[str, Floats] = {}
+    for index, (adjoint, own) in enumerate(zip(adjoints, shares.of_state, strict=True)):
+        by_numbers, by_limits, by_currents = adjoint.gradients([share.functional for share in own])
+        change = jacobians.numbers(index).T @ by_numbers
+        if index >= count:
+            change += jacobians.currents[index - count].T @ by_currents
+        for k, share in enumerate(own):
+            slopes = change[:, k]
+            if share.limits is not None:
+                slopes = slopes + jacobians.limits(index, share.limits).T @ by_limits[:, k]
+            total[share.figure] = total.get(share.figure, 0.0) + share.weight * slopes
+    total["force_constant_linkage"] += _turning(spec, positions, jacobians)
+    coercivity = intrinsic_coercivity(spec)
+    load = shares.norms["demagnetisation_load"] / coercivity
+    shares.norms["demagnetisation_load"] = load
+    total["demagnetisation_load"] = (total["demagnetisation_load"] - load * jacobians.coercivity) / coercivity
+    return total, shares.norms
+
+
+def _shares(
+    spec: Spec, field: Field, positions: Sequence[PositionResult], adjoints: Sequence[TubularAdjoint]
+) -> _Shares:
+    actuator: HybridActuator = spec.actuator
+    count = len(field.window)
+    window, mean = adjoints[:count], [1 / count] * count
+    at = [(item, ranges(actuator, item.position)) for item in field.window]
+    made = _Shares(len(adjoints))
+    made.add("force_constant", [item.force_constant() for item in window], mean)
+    made.add(
+        "force_constant_linkage",
+        [
+            item.linkage(weights)
+            for item, weights in zip(window, _linkage_weights(positions, actuator.mover.pole_pitch), strict=True)
+        ],
+        [1.0] * count,
+    )
+    made.add_norm("stray_field", [functionals.line_norm(item, *place.stray) for item, place in at], "stray")
+    made.add_norm("yoke_flux_density", [functionals.tube_norm(item, place.yoke_r, place.yoke_z) for item, place in at])
+    made.add_norm("cogging_force", [item.force() for item in window])
+    made.add_norm("demagnetisation_load", [functionals.reverse_norm(item.tubular, LOAD_EXPONENT) for item in adjoints])
+    if actuator.mover.ring_width > 0:
+        made.add("ring_flux_density", [functionals.shell_mean(item, *place.ring) for item, place in at], mean, "ring")
+    made.add("gap_flux_density", [functionals.shell_mean(item, *place.gap) for item, place in at], mean, "gap")
+    middle = count // 2
+    made.of_state[middle].append(_Share("phase_inductance", window[middle].inductance(), 1.0))
+    if field.peaks:
+        made.of_state[count].append(_Share("peak_force", adjoints[count].force(), 1.0))
+        made.of_state[middle].append(_Share("peak_force", window[middle].force(), -1.0))
+    return made
+
+
+def _linkage_weights(positions: Sequence[PositionResult], pole_pitch: float) -> list[tuple[float, float, float]]:
+    """d(3/2 (π/τ) |Λ|)/d linkage of each phase at each position (1/m)."""
+    vector = linkage_vector([p.flux_linkages for p in positions], [p.position for p in positions], pole_pitch)
+    along = 1.5 * pi / pole_pitch * np.conj(vector) / (abs(vector) or 1.0) / len(positions)
+    found = []
+    for position in positions:
+        turned = along * np.exp(-1j * pi * position.position / pole_pitch)
+        u, v, w = (float(np.real(turned * 2 / 3 * np.exp(2j * np.pi / 3 * k))) for k in range(3))
+        found.append((u, v, w))
+    return found
+
+
+def _turning(spec: Spec, positions: Sequence[PositionResult], jacobians: Jacobians) -> Floats:
+    """What pole pitch and positions do to 3/2 (π/τ) |Λ| by themselves: its factor, and the angle it is turned by."""
+    pitch = spec.number("actuator.mover.pole_pitch")
+    vector = linkage_vector([p.flux_linkages for p in positions], [p.position for p in positions], pitch)
+    scale = 1.5 * pi / pitch
+    found = -scale * abs(vector) / pitch * jacobians.pitch
+    direction = np.conj(vector) / (abs(vector) or 1.0)
+    for position, moved in zip(positions, jacobians.positions, strict=True):
+        z = position.position
+        turned = space_vector(np.array(position.flux_linkages)) * np.exp(-1j * pi * z / pitch)
+        angle = pi / pitch * (moved - z / pitch * jacobians.pitch)
+        found = found + scale / len(positions) * float(np.real(-1j * direction * turned)) * angle
+    return found

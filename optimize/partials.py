@@ -1,0 +1,96 @@
+"""Derivatives of what is known in closed form, by differences: from a specification's keys to dimensions and figures.
+
+No field is solved for them. Dimensions are linear in the keys and figures smooth, so a central difference of a
+hundred-thousandth is right to ten digits.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import Any
+
+from fluxbore.design.errors import FluxboreError
+from fluxbore.design.performance import FIGURES, Performance
+from fluxbore.design.spec import Spec
+
+STEP = 1e-5
+"""Of a value; of 1 SI unit where it is zero."""
+
+
+def moved(spec: Spec, key: str, value: float) -> Spec:
+    """The specification with another value at a key that it is given by. The key's own limits do not apply: a
+    derivative at a limit looks beyond it."""
+    return replace(spec, given={**spec.given, key: value})
+
+
+def differentiable(spec: Spec, keys: Sequence[str]) -> list[str]:
+    """Those of the keys that hold a continuous quantity of the design."""
+    kinds = {key.name: key for key in spec.kind.keys}
+    return [
+        name
+        for name in keys
+        if name in kinds
+        and kinds[name].kind in ("quantity", "number")
+        and kinds[name].section != "solver"
+        and name in spec.given
+    ]
+
+
+def slope(spec: Spec, key: str, at: Callable[[Spec, float], Any]) -> Any | None:
+    """d at / d key (SI) of a function of a specification and of how far its key was moved; arrays or numbers.
+
+    One-sided where the design cannot be built on one side of its value; None where it cannot on either.
+    """
+    value = spec.number(key)
+    step = STEP * (abs(value) or 1.0)
+
+    def found(count: int) -> Any | None:
+        # The step that was taken, not the one that was meant: the sum is rounded.
+        there = value + count * step
+        try:
+            return at(moved(spec, key, there), there - value)
+        except (FluxboreError, ArithmeticError):
+            return None
+
+    after, before = found(1), found(-1)
+    if after is not None and before is not None:
+        return (after - before) / (2 * step)
+    sign = 1 if after is not None else -1
+    here, near, far = found(0), after if after is not None else before, found(2 * sign)
+    if here is None or near is None or far is None:
+        return None
+    return sign * (4 * near - far - 3 * here) / (2 * step)
+
+
+def closed_gradient(
+    spec: Spec,
+    keys: Sequence[str],
+    complete: Callable[[Spec, float, str], Performance],
+    without: Sequence[str] = (),
+) -> dict[str, dict[str, float]]:
+    """Figure -> key -> derivative (SI) of the figures that a design has.
+
+    complete : the figures of a moved specification, how far it was moved, and along which key. without : figures that
+    have no derivative.
+    """
+    import numpy as np
+
+    base = spec.pinned(keys)
+    wanted = differentiable(base, keys)
+    names = [name for name in FIGURES if name not in without]
+    gradient: dict[str, dict[str, float]] = {name: {} for name in names}
+    for key in wanted:
+
+        def figures(changed: Spec, step: float, key: str = key) -> Any:
+            performance = complete(changed, step, key)
+            values = [getattr(performance, name) for name in names]
+            return np.array([np.nan if value is None else value for value in values])
+
+        found = slope(base, key, figures)
+        if found is None:
+            continue
+        for name, value in zip(names, found, strict=True):
+            if np.isfinite(value):
+                gradient[name][key] = float(value)
+    return {name: slopes for name, slopes in gradient.items() if len(slopes) == len(wanted) and slopes}
