@@ -82,6 +82,11 @@ class Requirement:
     checked: Interval | None = None
     shifted: Interval | None = None
 
+    @property
+    def best_estimate(self) -> Interval:
+        """The share that meets it, by the best that was computed; see `ToleranceResult.best_estimate`."""
+        return self.shifted or self.checked or self.simulated
+
 
 @dataclass(frozen=True, slots=True)
 class ToleranceEffect:

@@ -188,7 +188,7 @@ def test_a_small_error_moves_the_yield_of_the_linear_model():
         if result.shifted is None:  # the eight had a larger error by chance
             assert any("not good enough" in text for text in result.warnings)
             continue
-        assert result.best_estimate == result.shifted == result.requirements[0].shifted
+        assert result.best_estimate == result.shifted == result.requirements[0].best_estimate
         assert result.shifted.high - result.shifted.low < 0.3 * (result.checked.high - result.checked.low)
         given += 1
         covered += result.shifted.low <= truth <= result.shifted.high

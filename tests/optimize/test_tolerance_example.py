@@ -44,7 +44,9 @@ def test_the_force_scatters_with_the_remanence_above_all():
 
     The force is nearly proportional to the remanence: 0.03/1.4/sqrt(3) is 1.24 % of it.
     """
-    result = analyse({"study.constraints.1": "", "study.production.checks": "150"}, "network")
+    result = analyse(
+        {"study.constraints.1": "", "study.production.checks": "100", "study.production.samples": "2000"}, "network"
+    )
     force = result.figure("force_constant")
     assert result.effects[0].tolerance.key == REMANENCE
     assert force.shares[REMANENCE] > 0.8
