@@ -71,14 +71,17 @@ def _solve(model: Surrogate, box: Box, radius: float, penalty: float, room: floa
     """
     centre, here = model.centre.x, model.centre.fine.values
     best = _Best(merit_value(here, penalty, room), centre, here)
-    reach = radius
+    start, reach = best.size, radius
     for _ in range(RUNS):
         before = best.size
         low = np.maximum(np.maximum(centre - radius, best.x - reach), 0.0)
         high = np.minimum(np.minimum(centre + radius, best.x + reach), 1.0)
         _run(model, box, best, (low, high), penalty, room)
-        if best.size >= before:
-            reach /= 8
+        if before - best.size > 0.01 * (start - best.size):
+            continue
+        if best.size < start:
+            break
+        reach /= 8
     return Step(best.x, best.values, penalty)
 
 
@@ -121,7 +124,7 @@ def _run(model: Surrogate, box: Box, best: _Best, region: tuple[Array, Array], p
         [*begin, *([slack] * extra)],
         [0.0] * (size + extra),
         [*(span > 0).astype(float), *([2 * slack + 10.0] * extra)],
-        objective_tolerance=1e-13,
+        objective_tolerance=1e-10,
         variable_tolerance=1e-9,
         calls=CALLS,
     )
