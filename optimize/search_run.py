@@ -57,7 +57,10 @@ class SearchRun:
             limits = resolve_limits(self.base, done[0].evaluation)
         except FluxboreError as error:
             start = self.as_candidate(done[0].evaluation, ())
-            return SearchResult(start, network, (start,), (None,), None, None, str(error), time.monotonic() - begin)
+            seconds = time.monotonic() - begin
+            return SearchResult(
+                start, network, (start,), (None,), None, None, str(error), seconds, algorithm=self.algorithm
+            )
         start = self.as_candidate(done[0].evaluation, limits)
         merit = Merit(self.objective, objective_size(start, *(network,) if network else ()))
         outside = 0 if self.inside else 1
