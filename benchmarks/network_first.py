@@ -2,6 +2,7 @@
 
     python benchmarks/network_first.py              COBYLA, and SLSQP where the model brings gradients
     python benchmarks/network_first.py SPEC         another study
+    python benchmarks/network_first.py --algorithm SLSQP
 
 The same study with the network off, as the place to start from, and corrected all the way (manifold). Counted are the
 designs by finite elements, the start among them, and the seconds until a feasible one is within 0.1 % of the best that
@@ -85,12 +86,14 @@ def table(runs: list[Run], maximise: bool) -> str:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("spec", nargs="?", type=Path, default=TOP / "examples" / "ipehla.toml")
-    spec = load(parser.parse_args().spec)
+    parser.add_argument("--algorithm", help="only this one")
+    given = parser.parse_args()
+    spec = load(given.spec)
     if spec.study.objective is None:
         sys.exit("The study has no objective.")
     algorithms = ["COBYLA", *(["SLSQP"] if MODELS[spec.kind.name].gradients else [])]
     runs = []
-    for algorithm in algorithms:
+    for algorithm in [given.algorithm] if given.algorithm else algorithms:
         for network in NETWORK_ROLES:
             runs.append(run(spec, algorithm, network))
             print(f"{algorithm}, network {network}: {runs[-1].result.stop_reason}", flush=True)
