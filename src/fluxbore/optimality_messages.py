@@ -47,10 +47,14 @@ def _measure(spec: Spec, subject: str, size: float) -> Measure:
     return measure_of_figure(subject, size) if subject in FIGURES else measure_of_key(spec.kind.known(subject))
 
 
+def _percent(share: float) -> str:
+    return f"{100 * share:.3g} %" if share < 10 else f"{100 * share:.0f} %"
+
+
 def conflict_lines(spec: Spec, found: Conflict) -> list[str]:
     """Which limits exclude one another around the least infeasible design, by how much, and what would settle it."""
     lines = [
-        f"These limits exclude one another; the nearest design misses the worst of them by {100 * found.worst:.3g} %"
+        f"These limits exclude one another; the nearest design misses the worst of them by {_percent(found.worst)}"
         + ("" if found.settled else ", as far as the search went")
         + ":"
     ]
@@ -58,8 +62,8 @@ def conflict_lines(spec: Spec, found: Conflict) -> list[str]:
         unit = _measure(spec, item.subject, item.limit)
         parts = [f"found {show_subject(item.subject, item.value)}"]
         if item.missed > 0:
-            parts.append(f"missed by {unit.show(item.missed)} ({100 * item.relative:.3g} %)")
-        if item.weight is not None:
+            parts.append(f"missed by {unit.show(item.missed)} ({_percent(item.relative)})")
+        if item.weight is not None and not item.bound:  # a bound's is on another scale
             parts.append(f"{100 * item.weight:.3g} % of the conflict")
         if item.alone is not None and item.alone > 0:
             parts.append(f"alone it would have to give way by {unit.show(item.alone)}")
