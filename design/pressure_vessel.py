@@ -23,6 +23,9 @@ from dataclasses import dataclass
 from fluxbore.design.hybrid import Cylinder
 from fluxbore.design.materials import Material
 
+UNLOADED = 1e-6
+"""Pa; a smaller stress is no load, against which there is no factor of safety."""
+
 
 @dataclass(frozen=True, slots=True)
 class WallStress:
@@ -85,7 +88,9 @@ def vessel(cylinder: Cylinder, material: Material, pressure: float, *, closed: b
     elastic = material.young_modulus is not None and material.poisson_ratio is not None
     return Vessel(
         stress.hoop,
-        material.yield_stress / stress.equivalent if material.yield_stress is not None and pressure else None,
+        material.yield_stress / stress.equivalent
+        if material.yield_stress is not None and stress.equivalent > UNLOADED
+        else None,
         displacement(
             inner, inner, outer, pressure, material.young_modulus or 1.0, material.poisson_ratio or 0.0, closed=closed
         )

@@ -32,8 +32,11 @@ from fluxbore.design.winding import copper_fill
 HOTTEST = 2000.0
 """K; a winding that would be hotter has run away: its resistance grows faster than the air takes the heat."""
 
+COLDEST = 10.0
+"""K; no surface is taken as colder."""
+
 ROUNDS = 60
-"""Of the iteration for the surfaces' temperatures; each takes off about four fifths of the error."""
+"""At most, of the iteration for the surfaces' temperatures; four to six are usual."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -124,29 +127,34 @@ def network(
 
 
 def heat_at(net: ThermalNetwork, winding: float, yoke_loss: float = 0.0, tube_loss: float = 0.0) -> Heat:
-    """What a winding at this mean temperature (K) gives off while yoke and tube have losses of their own (W)."""
+    """What a winding at this mean temperature (K) gives off while yoke and tube have losses of their own (W).
+
+    Newton's iteration on the temperatures of the two surfaces, each of which gives off q = g T - c along its tangent.
+    The heat of a surface grows faster than its temperature, so that tangents lead to the root from above.
+    """
     rise = winding - net.ambient
     yoke = caps = tube = rise
     given = 0.0
     for _ in range(ROUNDS):
         before = yoke, caps
-        to_air = net.yoke_area * _surface(net, net.yoke_diameter, yoke)
-        outwards = net.outwards + 1 / to_air
-        admittance, offset = 1 / outwards, yoke_loss / to_air / outwards
-        from_caps = net.cap_area * _surface(net, net.cap_diameter, caps)
+        g, c = _tangent(net, net.yoke_area, net.yoke_diameter, yoke)
+        outwards, outer_offset = net.outwards + 1 / g, (yoke_loss + c) / g
+        admittance, offset = 1 / outwards, outer_offset / outwards
         if net.along_tube is not None:
-            away = net.along_tube + 1 / from_caps
+            g_caps, c_caps = _tangent(net, net.cap_area, net.cap_diameter, caps)
+            away = net.along_tube + 1 / g_caps
             admittance += 1 / (net.inwards + away)
-            offset += tube_loss * away / (net.inwards + away)
+            offset += (tube_loss * away + c_caps / g_caps) / (net.inwards + away)
         else:  # the tube's own loss can only leave through the winding
+            g_caps, c_caps = math.inf, 0.0
             offset += tube_loss
         given = (rise * admittance - offset) / (1 + net.mean * admittance)
         star = rise - net.mean * given
-        outer_flow = (star - yoke_loss / to_air) / outwards
-        yoke = (outer_flow + yoke_loss) / to_air
+        outer_flow = (star - outer_offset) / outwards
         inner_flow = given - outer_flow
+        yoke = (outer_flow + yoke_loss + c) / g
         tube = star - net.inwards * inner_flow
-        caps = (inner_flow + tube_loss) / from_caps if net.along_tube is not None else 0.0
+        caps = (inner_flow + tube_loss + c_caps) / g_caps
         if abs(yoke - before[0]) + abs(caps - before[1]) <= 1e-15 * net.ambient:
             break
     return Heat(winding, net.ambient + yoke, net.ambient + tube, net.ambient + caps, given)
@@ -182,8 +190,19 @@ def continuous_current(
     return math.copysign(math.sqrt(abs(square)), square)
 
 
-def _surface(net: ThermalNetwork, diameter: float, rise: float) -> float:
-    return heat_transfer(diameter, net.ambient + rise, net.ambient, net.emissivity)
+def _tangent(net: ThermalNetwork, area: float, diameter: float, rise: float) -> tuple[float, float]:
+    """g (W/K) and c (W) of the heat g T - c that a surface gives off near this rise T (K).
+
+    A winding that would have to be cooled from within (see `continuous_current`) can ask for less than no temperature.
+    """
+    rise = max(rise, COLDEST - net.ambient)
+
+    def heat(at: float) -> float:
+        return area * heat_transfer(diameter, net.ambient + at, net.ambient, net.emissivity) * at
+
+    step = 1e-5 * (1.0 + abs(rise))
+    slope = (heat(rise + step) - heat(rise - step)) / (2 * step)
+    return slope, slope * rise - heat(rise)
 
 
 def _root(function: Callable[[float], float], low: float, limit: float) -> float | None:

@@ -23,6 +23,7 @@ from fluxbore.design import (
 from fluxbore.design.hybrid import HybridActuator
 from fluxbore.design.materials import Conductor, Material, PermanentMagnet, lookup
 from fluxbore.design.performance import Performance
+from fluxbore.design.pressure_vessel import UNLOADED
 from fluxbore.design.spec import Spec
 from fluxbore.design.units import format_quantity
 from fluxbore.geometry.hybrid_parts import assembly
@@ -93,7 +94,7 @@ def derived(spec: Spec, performance: Performance) -> Performance:
     yoke_flux_density, phase_inductance and peak_force are read. Without a peak force the force constant stands for it;
     without a force constant nothing follows.
 
-    Closed forms, smooth in the specification's values and in the figures read, to rounding; below a millisecond.
+    Closed forms, smooth in the specification's values and in the figures read, to rounding; about a millisecond.
     """
     if performance.force_constant is None:
         return performance
@@ -186,8 +187,8 @@ def _loaded(spec: Spec, performance: Performance) -> Performance:
         performance,
         peak_thrust=thrust,
         shaft_stress=stress,
-        shaft_safety=strength / stress if strength is not None and stress > 0 else None,
-        buckling_safety=critical / thrust if critical is not None and thrust > 0 else None,
+        shaft_safety=strength / stress if strength is not None and stress > UNLOADED else None,
+        buckling_safety=critical / thrust if critical is not None and stress > UNLOADED else None,
     )
 
 

@@ -4,6 +4,8 @@ import math
 from dataclasses import replace
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from fluxbore.design import magnetic_network
 from fluxbore.design.performance import Performance, to_mapping
@@ -12,6 +14,8 @@ from fluxbore.design.spec_file import template
 from fluxbore.optimize.hybrid_common import common_figures, derived, warnings
 
 TEXT = template("ipehla")
+
+PROTOTYPE = loads(TEXT)
 
 FIELD = {
     "force_constant": 8.67,
@@ -213,6 +217,45 @@ def test_an_operating_point_that_contradicts_itself_is_refused(changes: dict[str
 
     with pytest.raises(SpecError, match=sentence):
         loads(TEXT, changes)
+
+
+RANGES = {
+    "operating_point.pressure": st.floats(-101_325, 1e9),
+    "operating_point.current": st.floats(0, 1e3),
+    "operating_point.peak_current": st.floats(1e3, 1e6),
+    "operating_point.speed": st.floats(0, 1e3),
+    "operating_point.duty": st.floats(1e-6, 1),
+    "operating_point.supply_voltage": st.floats(1e-6, 1e5),
+    "operating_point.ambient_temperature": st.floats(201, 400),
+    "operating_point.winding_temperature_limit": st.floats(400, 1000),
+    "actuator.back_yoke.emissivity": st.floats(0, 1),
+    "actuator.winding.insulation_conductivity": st.floats(1e-6, 1e3),
+    "actuator.winding.yoke_clearance": st.floats(0, 1e-3),
+    "actuator.mover.ring_width": st.floats(1e-4, 11e-3),
+    "actuator.seal.contact_force": st.floats(0, 1e6),
+    "actuator.seal.stribeck_speed": st.floats(1e-6, 100),
+}
+
+
+@settings(max_examples=40, deadline=None)
+@given(changes=st.fixed_dictionaries(RANGES), field=st.sampled_from([1e-9, 1.0, 3.0]))
+def test_whatever_keys_allow_gives_numbers_or_none(changes: dict[str, float], field: float) -> None:
+    """Catches an overflow, a root of a negative number or an iteration that diverges at values that keys accept."""
+    spec = PROTOTYPE.with_values(changes)
+    found = derived(
+        spec,
+        replace(
+            common_figures(spec, spec.actuator),
+            force_constant=10 * field,
+            gap_flux_density=field,
+            yoke_flux_density=field,
+        ),
+    )
+    for name, value in to_mapping(found).items():
+        assert value is None or math.isfinite(value), name
+    assert found.continuous_current is not None
+    if found.winding_temperature is not None:
+        assert found.winding_temperature >= changes["operating_point.ambient_temperature"]
 
 
 def test_the_inductance_is_the_fields() -> None:
