@@ -10,13 +10,20 @@ from fluxbore.design.errors import FluxboreError
 from fluxbore.optimize.evaluator import Evaluated
 from fluxbore.optimize.outcome import Candidate, SearchEnding
 from fluxbore.optimize.pareto_lanes import Ask, Job, side_by_side
-from fluxbore.optimize.pareto_points import Points, favouring
+from fluxbore.optimize.pareto_points import Points, Task, favouring
 from fluxbore.optimize.pareto_scalar import best_of
 from fluxbore.optimize.pareto_standing import hypervolume, summary
 from fluxbore.optimize.problem import Point
 
 FIRST_STEP = 0.1
 """First step of the searches at the ends, of each variable's range; between them it is smaller."""
+
+
+LOOKS = 5
+"""Further rounds over the points that leave something to be wished for."""
+
+END_ROUNDS = 3
+"""Searches for the ends, at the scale of the front that those before them found."""
 
 
 class _TimeUpError(Exception):
@@ -67,12 +74,15 @@ class Front:
             self.conflicting = False
             points.leave_only(alone)
             return "The objectives do not conflict: one design is the best in both, and the front is that one point."
-        self.reference = points.scale_to_ends()
+        self._settle_ends()
         inner = points.set_inner()
         half = (len(inner) + 1) // 2
         self._serve([self._walk([0.0, *inner[:half]]), self._walk([1.0, *reversed(inner[half:])])])
-        again = points.wanting()
-        self._serve([self._again(again[lane::2]) for lane in (0, 1)])
+        for _ in range(LOOKS):
+            again = points.wanting()
+            if not again:
+                break
+            self._serve([self._again(again[lane::2]) for lane in (0, 1)])
         points.judge_ends()
         return summary(points.listed())
 
@@ -86,6 +96,21 @@ class Front:
         lost = [which for which in (0, 1) if points.design(float(which)) is None]
         if len(lost) == 1:
             self._serve([self._end(lost[0])])
+
+    def _settle_ends(self) -> None:
+        """Scale to the ends; where that shows that an end's search stopped short of it, search and scale again.
+
+        What an end is missing shifts all points: their limits are shares of the way from end to end.
+        """
+        points = self.points
+        for _ in range(END_ROUNDS):
+            self.reference = points.scale_to_ends()
+            short = points.wanting()
+            before = len(points.archive.history)
+            self._serve([self._again([task]) for task in short])
+            if len(points.archive.history) == before:
+                return
+        self.reference = points.scale_to_ends()
 
     def _end(self, which: int) -> Job:
         """The best of one objective, and of all designs that share it the best of the other one.
@@ -123,7 +148,7 @@ class Front:
 
         return job
 
-    def _again(self, tasks: Sequence[tuple[float, Point | None]]) -> Job:
+    def _again(self, tasks: Sequence[Task]) -> Job:
         def job(ask: Ask) -> None:
             for position, start in tasks:
                 self.points.solve(position, ask, self.points.problems[position], start, self._step())

@@ -29,6 +29,7 @@ RESIDUAL = 10.0
 """The residual that is good enough, in tolerances."""
 
 _MISS = 10.0  # what a relative miss weighs against the loss, where a start is chosen
+_STEEP = 100.0  # what a missed row weighs against the loss, where the best is chosen
 _UNKNOWN = 1e3  # the miss of a design whose limits are not known
 _LEAST_SHARE = 1e-3  # of the loss: less would leave no digits to an upright front
 
@@ -147,7 +148,7 @@ class PointSearch:
             lower,
             upper,
             algorithm=self.algorithm,
-            objective_tolerance=self.tolerance / 10,
+            objective_tolerance=self.tolerance / 100,
             variable_tolerance=self.tolerance / 10,
             miss_tolerance=self.tolerance / 100,
             calls=CALLS,
@@ -216,15 +217,19 @@ class PointSearch:
 
 
 def choose(problem: Scalarisation, sight: Sight, archive: Archive, tolerance: float) -> Candidate | None:
-    """The feasible design of the archive that solves the problem best; rows may be missed by ``tolerance``."""
+    """The feasible design of the archive that solves the problem best; rows may be missed by ``tolerance``.
+
+    Such a miss weighs as much as it could gain on a steep front: else a design on the way, a little beyond the row,
+    would be preferred to the one that the search ended at.
+    """
     best: tuple[float, Candidate] | None = None
     for _, design in archive.points:
         losses = sight.scale.losses(design)
         if losses is None or not design.feasible:
             continue
         miss, loss = problem.score(*losses)
-        if miss <= tolerance and (best is None or loss < best[0]):
-            best = (loss, design)
+        if miss <= tolerance and (best is None or loss + _STEEP * miss < best[0]):
+            best = (loss + _STEEP * miss, design)
     return None if best is None else best[1]
 
 

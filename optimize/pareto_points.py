@@ -14,11 +14,14 @@ from fluxbore.optimize.pareto_result import FrontPoint
 from fluxbore.optimize.pareto_scalar import Row, Scalarisation, Scale, best_of, boundary_intersection
 from fluxbore.optimize.pareto_sight import Sight
 from fluxbore.optimize.pareto_slope import met_at
-from fluxbore.optimize.pareto_standing import with_standing
+from fluxbore.optimize.pareto_standing import jumps, with_standing
 from fluxbore.optimize.problem import Point
 
 END_WEIGHT = 1e3
 """Weight of an end's own objective against the other one, which then decides between designs that share the best."""
+
+Task = tuple[float, Point]
+"""A position and the scaled point from which to look for its design."""
 
 _NOT_REACHED = "The run ended before this point."
 
@@ -38,6 +41,7 @@ class Points:
     sight: Sight
     problems: dict[float, Scalarisation] = field(default_factory=dict)
     found: dict[float, Found] = field(default_factory=dict)
+    tried: set[Task] = field(default_factory=set)
 
     def listed(self) -> tuple[FrontPoint, ...]:
         """The points in their order along the front, each with its standing."""
@@ -64,10 +68,7 @@ class Points:
             seed=self.search.seed,
             asked=spent,
         )
-        if start is None:
-            made = nearest(problem, self.sight, self.archive)
-            start = (0.5,) * len(self.archive.box.keys) if made is None else self.archive.box.point(made.values)
-        found = search.run(ask, start, step)
+        found = search.run(ask, self._nearest(problem) if start is None else start, step)
         if found.design is None and before is not None and before.design is not None:
             found = replace(before, designs=found.designs)
         self.problems[position] = problem
@@ -124,24 +125,37 @@ class Points:
         share = (position - behind[0]) / (behind[0] - behind[1])
         return self.archive.box.tidy([x + share * (x - y) for x, y in zip(*points, strict=True)])
 
-    def wanting(self) -> list[tuple[float, Point | None]]:
-        """The points to solve again, with a start: something better is known, one is not settled or fell on another's.
+    def wanting(self) -> list[Task]:
+        """The points to solve again, with a start: something better is known, one is not settled, fell on another's
+        design or stands beside a jump. No start is tried twice.
 
         They begin at the best that is known, or else between the neighbours that are on the front.
         """
-        on_front = [point.position for point in self.listed() if point.standing == "front"]
-        again: list[tuple[float, Point | None]] = []
+        listed = self.listed()
+        on_front = [point.position for point in listed if point.standing == "front"]
+        again: list[Task] = []
         for position, found in sorted(self.found.items()):
             problem = self.problems[position]
             seen = choose(problem, self.sight, self.archive, self.search.relative_tolerance)
             if found.design is None or (seen is not None and self._gain(problem, found.design, seen) > 0):
-                again.append((position, None))
+                again.append((position, self._nearest(problem)))
             elif not self._settled(found):
                 again.append((position, self.archive.box.point(found.design.values)))
             elif position not in on_front and 0.0 < position < 1.0:
                 below, above = ([p for p in on_front if (p < position) is side] for side in (True, False))
-                again.append((position, self.ahead([max(below), min(above)], position) if below and above else None))
-        return again
+                between = self.ahead([max(below), min(above)], position) if below and above else None
+                again.append((position, between or self._nearest(problem)))
+        for sides in jumps(listed):
+            middle = self.ahead(sides, sum(sides) / 2)
+            again += [(side, middle) for side in sides if 0.0 < side < 1.0 and middle is not None]
+        fresh = [task for task in dict.fromkeys(again) if task not in self.tried]
+        self.tried.update(fresh)
+        return fresh
+
+    def _nearest(self, problem: Scalarisation) -> Point:
+        """The design of the archive from which to begin, or the middle of the box."""
+        made = nearest(problem, self.sight, self.archive)
+        return (0.5,) * len(self.archive.box.keys) if made is None else self.archive.box.point(made.values)
 
     def _gain(self, problem: Scalarisation, one: Candidate, other: Candidate) -> float:
         """How much less the other design loses, beyond the tolerance."""

@@ -4,9 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import pairwise
 
 from fluxbore.optimize.pareto_result import FrontPoint, Standing
 from fluxbore.optimize.pareto_scalar import Scale
+
+JUMP = 2.0
+"""How much steeper or flatter than its slopes the front may run between two points without a second look."""
 
 Losses = tuple[float, float]
 
@@ -31,6 +35,25 @@ def with_standing(points: Sequence[FrontPoint], scale: Scale, tolerance: float) 
             standing = "repeated"
         marked.append(replace(point, standing=standing))
     return tuple(marked)
+
+
+def jumps(points: Sequence[FrontPoint]) -> list[tuple[float, float]]:
+    """Neighbours on the front (their positions) between which it does not run as its slopes at both of them say.
+
+    Along a piece of the front the secant is between both slopes, or near them where the front bends twice. Where it is
+    far steeper or flatter, the front has a gap, or one of the two sits in another valley than the front there.
+    """
+    front = [point for point in points if point.standing == "front"]
+    found = []
+    for one, other in pairwise(front):
+        if None in (one.slope, other.slope, one.first, one.second, other.first, other.second):
+            continue
+        slopes = abs(one.slope or 0.0), abs(other.slope or 0.0)
+        run = abs((one.second or 0.0) - (other.second or 0.0))
+        rise = abs((one.first or 0.0) - (other.first or 0.0))
+        if rise > JUMP * max(slopes) * run or JUMP * rise < min(slopes) * run:
+            found.append((one.position, other.position))
+    return found
 
 
 def hypervolume(points: Sequence[FrontPoint], scale: Scale) -> float:

@@ -46,6 +46,16 @@ def free(design, fidelity="fem"):
     return quadratic(design, fidelity)
 
 
+def ellipses(design, fidelity="fem", gradient=(), *, first, second):
+    """Two quadratics a (x - c)^2 + 2 b (x - c)(y - d) + e (y - d)^2, each given by (a, b, e, c, d)."""
+
+    def form(a, b, e, c, d):
+        x, y = design.number(toy.X) - c, design.number(toy.Y) - d
+        return a * x * x + 2 * b * x * y + e * y * y, 2 * (a * x + b * y), 2 * (b * x + e * y)
+
+    return made(fidelity, gradient, first=form(*first), second=form(*second))
+
+
 def upside_down(design, fidelity="fem", gradient=()):
     """`quadratic` with its first objective a million times larger and to be maximised, its second one a thousandth."""
     x, y = design.number(toy.X), design.number(toy.Y)

@@ -3,7 +3,9 @@
 import csv
 import io
 import math
+import random
 from dataclasses import replace
+from functools import partial
 
 import pareto_toys as toys
 import pytest
@@ -107,6 +109,35 @@ def test_published_fronts_convex_and_concave(model, bounds, known, method):
         u, v = scaled(result, point)
         place = v - 1 if method == EPSILON else (v - u - 1) / 2
         assert place == pytest.approx(-point.position, abs=1e-3)
+
+
+@pytest.mark.parametrize("method", PARETO_METHODS)
+@pytest.mark.parametrize("seed", range(5))
+def test_the_front_of_two_random_quadratics(method, seed):
+    """Catches points beside the front of badly scaled problems: there one gradient is the other's negative multiple,
+    and the multiple is the slope."""
+    draw = random.Random(seed)
+
+    def quadratic():
+        a, e = 10 ** draw.uniform(-1, 1), 10 ** draw.uniform(-1, 1)
+        return a, draw.uniform(-0.8, 0.8) * math.sqrt(a * e), e, draw.uniform(-0.8, 1.8), draw.uniform(-0.8, 1.8)
+
+    first, second = quadratic(), quadratic()
+    model = partial(toys.ellipses, first=first, second=second)
+    result = front(toys.study(method=method, lower=-3.0, upper=4.0, points=7), model)
+    assert len(result.front) == 7
+    assert max(point.residual for point in result.points) < 1e-3
+    # No end was left short of its optimum: the front is scaled to where it ends.
+    assert result.reference == (result.points[-1].first, result.points[0].second)
+    for point in result.points[1:-1]:
+        x, y = point.design.values[toy.X], point.design.values[toy.Y]
+        (gx, gy), (hx, hy) = (
+            (a * (x - c) + b * (y - d), b * (x - c) + e * (y - d)) for a, b, e, c, d in (first, second)
+        )
+        assert gx * hy - gy * hx == pytest.approx(0, abs=0.02 * math.hypot(gx, gy) * math.hypot(hx, hy))
+        assert gx * hx + gy * hy < 0
+        assert point.slope == pytest.approx(-math.hypot(gx, gy) / math.hypot(hx, hy), rel=0.02)
+    assert len(result.history) < 15 * 7
 
 
 def test_a_front_in_five_pieces():

@@ -1,6 +1,7 @@
 """What is dominated, what is repeated, and how much a front dominates; the conditions and slopes in plain numbers."""
 
 import math
+from dataclasses import replace
 from itertools import pairwise
 
 import pytest
@@ -15,7 +16,7 @@ from fluxbore.optimize.outcome import Candidate
 from fluxbore.optimize.pareto_result import FrontPoint
 from fluxbore.optimize.pareto_scalar import Scale, Seen, best_of, boundary_intersection
 from fluxbore.optimize.pareto_slope import Conditions
-from fluxbore.optimize.pareto_standing import hypervolume, summary, with_standing
+from fluxbore.optimize.pareto_standing import hypervolume, jumps, summary, with_standing
 
 BOTH = (Objective("force_constant", False), Objective("total_mass", False))
 UNIT = Scale(BOTH)
@@ -54,6 +55,19 @@ def test_the_front_is_what_nothing_dominates(pairs):
         beaten = any(a <= own[0] and b <= own[1] and (a, b) != own for a, b in pairs)
         assert (item.standing == "dominated") == beaten
     assert not pairs or any(item.standing == "front" for item in found)
+
+
+def test_a_jump_is_where_the_secant_leaves_the_slopes():
+    """Catches a second look at every bend, and none at a gap."""
+
+    def along(*items):
+        points = [replace(point((u, v), i), slope=slope) for i, (u, v, slope) in enumerate(items)]
+        return jumps(with_standing(points, UNIT, 1e-3))
+
+    assert along((0.0, 1.0, 0.0), (0.25, 0.25, -1.0), (1.0, 0.0, None)) == []
+    assert along((0.0, 1.0, -0.1), (0.04, 0.8, -0.3), (0.8, 0.7, -0.3), (1.0, 0.0, -0.3)) == [(1, 2)]
+    assert along((0.0, 1.0, -2.0), (0.1, 0.2, -2.0)) == [(0, 1)]
+    assert along((0.0, 1.0, -2.0), (0.1, 0.2, None)) == []
 
 
 def test_the_hypervolume_of_known_fronts():
