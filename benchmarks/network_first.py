@@ -2,7 +2,7 @@
 
     python benchmarks/network_first.py              COBYLA, and SLSQP where the model brings gradients
     python benchmarks/network_first.py SPEC         another study
-    python benchmarks/network_first.py --algorithm SLSQP
+    python benchmarks/network_first.py --algorithm SLSQP --set "actuator.mover.ring_width=5 mm"
 
 The same study with the network off, as the place to start from, and corrected all the way (manifold). Counted are the
 designs by finite elements, the start among them, and the seconds until a feasible one is within 0.1 % of the best that
@@ -87,8 +87,9 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("spec", nargs="?", type=Path, default=TOP / "examples" / "ipehla.toml")
     parser.add_argument("--algorithm", help="only this one")
+    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="another start")
     given = parser.parse_args()
-    spec = load(given.spec)
+    spec = load(given.spec, dict(item.split("=", 1) for item in given.set))
     if spec.study.objective is None:
         sys.exit("The study has no objective.")
     algorithms = ["COBYLA", *(["SLSQP"] if MODELS[spec.kind.name].gradients else [])]
