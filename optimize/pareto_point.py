@@ -22,11 +22,7 @@ CALLS = 1000
 """Points that one run of NLopt may ask for, repeated ones included."""
 
 ROUNDS = 4
-"""Runs of SLSQP for one point: it begins anew from the best design while norms have moved or the optimality
-conditions are not met."""
-
-RESIDUAL = 10.0
-"""The residual that is good enough, in tolerances."""
+"""Runs of SLSQP for one point: it begins anew from the best design while that is not settled."""
 
 _MISS = 10.0  # what a relative miss weighs against the loss, where a start is chosen
 _STEEP = 100.0  # what a missed row weighs against the loss, where the best is chosen
@@ -84,7 +80,7 @@ class PointSearch:
         return Found(best, met, self.reason if best is not None else self._shortfall(), self.asked)
 
     def _descend(self, ask: Ask, start: Point, step: float) -> None:
-        """SLSQP, again from its best design until the figures' norms hold and the optimality conditions are met.
+        """SLSQP, again from its best design until that is settled, its figures' maxima standing for their norms.
 
         Where a design lacks a derivative that the others have, COBYLA goes on.
         """
@@ -97,20 +93,14 @@ class PointSearch:
                 if ending.stopped_by is not None:
                     raise ending.stopped_by
                 best = choose(self.problem, self.sight, self.archive, self.tolerance)
-                if best is None or self.asked == before or self._settled(best, kappas):
+                met = None if best is None else met_at(self.problem, self.sight, best)
+                if best is None or self.asked == before or (met is not None and met.settled(self.tolerance)):
                     return
                 point = self.archive.box.point(best.values)
         except NoSlopesError as error:
             self.sight = replace(self.sight, gradients=False)
             self._probe(ask, point, step)
             self.reason += f" A design without the derivatives of {error} was met, so COBYLA went on."
-
-    def _settled(self, best: Candidate, kappas: Mapping[str, float]) -> bool:
-        moved = self.sight.kappas(best)
-        if any(abs(moved[name] / kappa - 1) > self.tolerance for name, kappa in kappas.items()):
-            return False
-        met = met_at(self.problem, self.sight, best)
-        return met is not None and met.residual <= RESIDUAL * self.tolerance
 
     def _sound(self, ask: Ask, start: Point) -> Point:
         """The start, or the best of the archive where the start has no figures."""

@@ -9,7 +9,7 @@ from fluxbore.design.study import Pareto, Search
 from fluxbore.optimize.archive import Archive
 from fluxbore.optimize.outcome import Candidate
 from fluxbore.optimize.pareto_lanes import Ask
-from fluxbore.optimize.pareto_point import RESIDUAL, Found, PointSearch, choose, nearest
+from fluxbore.optimize.pareto_point import Found, PointSearch, choose, nearest
 from fluxbore.optimize.pareto_result import FrontPoint
 from fluxbore.optimize.pareto_scalar import Row, Scalarisation, Scale, best_of, boundary_intersection
 from fluxbore.optimize.pareto_sight import Sight
@@ -165,7 +165,7 @@ class Points:
 
     def _settled(self, found: Found) -> bool:
         """Whether the optimality conditions are met, as far as they are known."""
-        return found.conditions is None or found.conditions.residual <= RESIDUAL * self.search.relative_tolerance
+        return found.conditions is None or found.conditions.settled(self.search.relative_tolerance)
 
     def _end_figures(self, end: float) -> tuple[float, float]:
         design = self.found[end].design

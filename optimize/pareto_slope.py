@@ -13,6 +13,9 @@ from fluxbore.optimize.pareto_sight import Sight
 from fluxbore.optimize.problem import Point
 from fluxbore.optimize.slopes import NoSlopesError
 
+RESIDUAL = 10.0
+"""The residual that is good enough, in tolerances."""
+
 _SMALL = 1e-6
 """Weight of the multipliers' own size against the conditions."""
 
@@ -26,10 +29,16 @@ class Conditions:
 
     residual : of `fluxbore.optimize.optimality.residual`, in ranges of an objective along the front per range of a
     variable. weights : of u and v in the stationarity condition, the loss's own and the rows' multipliers together.
+    spare : what using up the room that is left to rows and limits would gain, in ranges of the objective.
     """
 
     residual: float
     weights: tuple[float, float]
+    spare: float = 0.0
+
+    def settled(self, tolerance: float) -> bool:
+        """Whether a further search would gain less than the tolerance; it is squared in what the residual promises."""
+        return self.residual <= RESIDUAL * tolerance and self.spare <= tolerance
 
     def slope(self, scale: Scale) -> float | None:
         """d first/d second (SI) along the front: du/dv = -w_v/w_u; None where the first objective has no weight."""
@@ -64,6 +73,7 @@ def met_at(problem: Scalarisation, sight: Sight, design: Candidate) -> Condition
             float(problem.loss.first + sum(row.first * price for row, price in rows)),
             float(problem.loss.second + sum(row.second * price for row, price in rows)),
         ),
+        float(sum(price * abs(miss) for price, miss in zip(found, view.misses, strict=False))),
     )
 
 
