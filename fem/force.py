@@ -79,11 +79,18 @@ def axial_force(solution: Solution, annulus: tuple[float, float]) -> float:
     return float(axial_force_gradient(solution, annulus) @ solution.psi / 2)
 
 
-def incremental_thrust(solution: Solution, annulus: tuple[float, float]) -> Floats:
+def thrust_response(solution: Solution, annulus: tuple[float, float]) -> Floats:
+    """(n,) y with K_T y = ∂F/∂ψ at the solution's state: one back-substitution serves all circuits' constants."""
+    found = np.zeros(solution.psi.size)
+    inner = solution.system.inner
+    found[inner] = solution.tangent.solve(solution.system.topology.gather(axial_force_gradient(solution, annulus)))
+    return found
+
+
+def incremental_thrust(solution: Solution, annulus: tuple[float, float], response: Floats | None = None) -> Floats:
     """(k,) change of the axial force per ampere in each of the problem's circuits (N/A), at the solution's state.
 
-    One back-substitution serves all circuits: with K y = ∂F/∂ψ, each circuit's constant is y · (its load per ampere).
+    With K y = ∂F/∂ψ, each circuit's constant is y · (its load per ampere). response : y, where it is known.
     """
-    gather = solution.system.topology.gather
-    y = solution.tangent.solve(gather(axial_force_gradient(solution, annulus)))
-    return np.array([y @ gather(circuit.density) for circuit in solution.problem.circuits])
+    y = thrust_response(solution, annulus) if response is None else response
+    return np.array([y @ circuit.density for circuit in solution.problem.circuits])

@@ -28,6 +28,7 @@ class Functional:
     by_psi : (n,). s, z : (lines,) by the s and z of the grid's lines. limits : (2,) by its own two
     limits in z, where it has such. The others are of an incremental figure: windows (coils, 4), turns (coils,),
     reluctivity (regions,), poles (2,); coercivity (regions,) is of a figure of the magnets.
+    adjoint : (n,) K_T⁻¹ ∂/∂ψ, where it is known already.
     """
 
     value: float
@@ -40,6 +41,7 @@ class Functional:
     reluctivity: Floats | None = None
     poles: Floats | None = None
     coercivity: Floats | None = None
+    adjoint: Floats | None = None
 
 
 def on_lines(grid: MappedMesh, nodes: Floats) -> tuple[Floats, Floats]:

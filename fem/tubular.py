@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
 from fluxbore.design.materials import PermanentMagnet
 from fluxbore.fem.asymptotic import open_edges
 from fluxbore.fem.field import along_radius
-from fluxbore.fem.force import axial_force, incremental_thrust
+from fluxbore.fem.force import axial_force, incremental_thrust, thrust_response
 from fluxbore.fem.linkage import circuits, flux_linkages, synchronous_inductance
 from fluxbore.fem.magnetostatics import Settings, Solution, solve
 from fluxbore.fem.mapped import MappedMesh, Subdivision, mapped_mesh
@@ -45,7 +46,7 @@ Z_CELLS = {
 """Cells of the default mesh along z, by what lies there."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class TubularSolution:
     """A machine's field at one position, with the grid it lives on."""
 
@@ -58,9 +59,14 @@ class TubularSolution:
     def convergence(self) -> Convergence:
         return self.solution.convergence
 
+    @cached_property
+    def response(self) -> Floats:
+        """(n,) K_T⁻¹ ∂F/∂ψ of the axial force: what thrust constants and their gradients begin with."""
+        return thrust_response(self.solution, self.section.force_annulus)
+
     def thrust_constants(self) -> Floats:
         """(3,) incremental thrust per ampere in each phase (N/A), by the stress tensor."""
-        return incremental_thrust(self.solution, self.section.force_annulus)
+        return incremental_thrust(self.solution, self.section.force_annulus, self.response)
 
     def cogging_force(self) -> float:
         """Axial force on the mover at no current (N)."""
@@ -217,6 +223,12 @@ def demagnetised_fraction(tubular: TubularSolution, intrinsic_coercivity: float)
     return beyond / volume if volume else 0.0
 
 
-def largest_reverse_field(tubular: TubularSolution) -> float:
-    """The largest field against the magnetisation in the magnets (A/m), at the elements' quadrature points."""
-    return max((float(reverse.max()) for _, _, reverse in reverse_fields(tubular)), default=0.0)
+def mean_reverse_field(tubular: TubularSolution, exponent: float) -> float:
+    """(mean of h^p over the magnets' volume)^(1/p) (A/m) of the field h >= 0 against the magnetisation."""
+    fields = [(tubular.solution.system.kernel.weight[m], np.maximum(h, 0.0)) for _, m, h in reverse_fields(tubular)]
+    largest = max((float(reverse.max()) for _, reverse in fields), default=0.0)
+    if largest == 0.0:
+        return 0.0
+    integral = sum(float(np.sum(weight * (reverse / largest) ** exponent)) for weight, reverse in fields)
+    volume = sum(float(weight.sum()) for weight, _ in fields)
+    return float(largest * (integral / volume) ** (1 / exponent))

@@ -29,18 +29,13 @@ _CLARKE = np.exp(2j * np.pi / 3 * np.arange(3))
 
 
 class TubularAdjoint:
-    """One position's solution, prepared for gradients.
-
-    response : (n,) y = K_T⁻¹ ∂F/∂ψ, of the axial force. phases : (n, 3) K_T⁻¹ c, of one ampere in each phase.
-    """
+    """One position's solution, prepared for gradients."""
 
     def __init__(self, tubular: TubularSolution) -> None:
         self.tubular = tubular
         solution = tubular.solution
         self._densities = np.column_stack([circuit.density for circuit in solution.problem.circuits])
         self._pull = axial_force_gradient(solution, tubular.section.force_annulus)
-        found = self._solved(np.column_stack((self._pull, self._densities)))
-        self.response, self.phases = found[:, 0], found[:, 1:]
 
     @cached_property
     def linearisation(self) -> Linearisation:
@@ -50,11 +45,6 @@ class TubularAdjoint:
     def _windows(self) -> Windows:
         return Windows(self.tubular.grid, self.tubular.section.coils)
 
-    @property
-    def thrust_constants(self) -> Floats:
-        """(3,) N/A, as `TubularSolution.thrust_constants`."""
-        return np.asarray(self._densities.T @ self.response)
-
     def force_constant(self) -> Functional:
         """3/2 |K_αβ| (N/A) of the incremental thrust constants.
 
@@ -62,17 +52,18 @@ class TubularAdjoint:
         currents' load and, against both, of the tangent.
         """
         tubular, solution = self.tubular, self.tubular.solution
-        vector = space_vector(self.thrust_constants)
+        vector = space_vector(tubular.thrust_constants())
         weights = np.real(np.conj(vector) / (abs(vector) or 1.0) * _CLARKE)
-        x = self.phases @ weights
-        derivative, by_psi = self.linearisation.tangent(x, self.response)
+        response = tubular.response
+        x = self._solved((self._densities @ weights)[:, None])[:, 0]
+        derivative, by_psi = self.linearisation.tangent(x, response)
         annulus = tubular.section.force_annulus
         of_stress, at_radii = stress_derivative(solution, annulus, x)
         s, z = on_lines(tubular.grid, of_stress)
         for radius, by_s in zip(annulus, at_radii, strict=True):
             s[tubular.grid.line(radius)] += by_s
-        load = self._windows.derivative(self._by_phase(weights, self.response))
-        rim = rim_derivative(tubular.grid, tubular.section.ends, x[:, None], self.response[:, None])
+        load = self._windows.derivative(self._by_phase(weights, response))
+        rim = rim_derivative(tubular.grid, tubular.section.ends, x[:, None], response[:, None])
         return Functional(
             1.5 * abs(vector),
             axial_force_gradient(solution, annulus, x) - by_psi,
@@ -92,7 +83,7 @@ class TubularAdjoint:
         s, z = on_lines(tubular.grid, nodes)
         for radius, by_s in zip(annulus, at_radii, strict=True):
             s[tubular.grid.line(radius)] += by_s
-        return Functional(float(self._pull @ tubular.solution.psi / 2), self._pull, s, z)
+        return Functional(float(self._pull @ tubular.solution.psi / 2), self._pull, s, z, adjoint=tubular.response)
 
     def linkage(self, weights: Sequence[float]) -> Functional:
         """A sum over the phases of weight · flux linkage (Wb)."""
@@ -131,8 +122,8 @@ class TubularAdjoint:
         assert total.reluctivity is not None
         assert total.poles is not None
         scale = np.pi * 2 / 3
-        for currents in (np.real(_CLARKE), np.imag(_CLARKE)):
-            x = self.phases @ currents
+        clarke = np.column_stack((np.real(_CLARKE), np.imag(_CLARKE)))
+        for currents, x in zip(clarke.T, self._solved(self._densities @ clarke).T, strict=True):
             derivative, by_psi = self.linearisation.tangent(x, x)
             load = self._windows.derivative(self._by_phase(2 * currents, x))
             rim = rim_derivative(grid, self.tubular.section.ends, x[:, None], x[:, None])
@@ -151,7 +142,7 @@ class TubularAdjoint:
         (3, k) by the currents."""
         tubular, grid = self.tubular, self.tubular.grid
         section, problem = tubular.section, tubular.solution.problem
-        adjoints = self._solved(np.column_stack([item.by_psi for item in functionals]))
+        adjoints = self._adjoints(functionals)
         residual = self.linearisation.residual(adjoints)
         psi = np.broadcast_to(tubular.solution.psi[:, None], adjoints.shape)
         rim = rim_derivative(grid, section.ends, psi, adjoints)
@@ -181,6 +172,17 @@ class TubularAdjoint:
             (by_r, by_z, windows.reshape(-1, len(functionals)), turns, remanence, recoil, poles), axis=0
         )
         return flat, np.column_stack([item.limits for item in functionals]), self._densities.T @ adjoints
+
+    def _adjoints(self, functionals: Sequence[Functional]) -> Floats:
+        """(n, k) K_T⁻¹ of the functionals' derivatives by ψ, those that are known left as they are."""
+        found = np.zeros((self._pull.size, len(functionals)))
+        unknown = [k for k, item in enumerate(functionals) if item.adjoint is None]
+        if unknown:
+            found[:, unknown] = self._solved(np.column_stack([functionals[k].by_psi for k in unknown]))
+        for k, item in enumerate(functionals):
+            if item.adjoint is not None:
+                found[:, k] = item.adjoint
+        return found
 
     def _magnets(self, reluctivity: Floats, coercivity: Floats) -> tuple[Floats, Floats]:
         """(regions, k) by remanence and by recoil permeability: ν = ν0/μ_r and H_c = ν B_r."""

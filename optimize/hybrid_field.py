@@ -138,7 +138,6 @@ def thrust_sign(spec: Spec, solved: TubularSolution) -> float:
 def field_figures(spec: Spec, field: Field, positions: Sequence[PositionResult]) -> dict[str, float | None]:
     """The figures of the field, by name. Maxima are over the window; the gap's and the ring's figures are its means."""
     from fluxbore.fem import tubular
-    from fluxbore.fem.functionals import reverse_norm
 
     actuator: HybridActuator = spec.actuator
     solved, coercivity = field.window, intrinsic_coercivity(spec)
@@ -164,7 +163,7 @@ def field_figures(spec: Spec, field: Field, positions: Sequence[PositionResult])
         "gap_flux_density": mean_shell([place.gap for place in at]),
         "demagnetised_fraction": max(tubular.demagnetised_fraction(item, coercivity) for item in solved),
         "phase_inductance": field.middle.synchronous_inductance(),
-        "demagnetisation_load": max(reverse_norm(item, LOAD_EXPONENT).value for item in states) / coercivity,
+        "demagnetisation_load": max(tubular.mean_reverse_field(item, LOAD_EXPONENT) for item in states) / coercivity,
         "peak_force": field.peaks[0].cogging_force() - field.middle.cogging_force() if field.peaks else None,
         "peak_demagnetised_fraction": max(tubular.demagnetised_fraction(item, coercivity) for item in field.peaks)
         if field.peaks

@@ -70,7 +70,8 @@ def by_fem(spec: Spec, gradient: Sequence[str] = ()) -> Evaluation:
         where, convergence = field.failure
         return failure("fem", NOT_CONVERGED, where + convergence.sentence())
     positions = tuple(position_result(item, actuator.mover.pole_pitch) for item in field.window)
-    performance = complete(spec, field_figures(spec, field, positions))
+    figures = field_figures(spec, field, positions)
+    performance = complete(spec, figures)
     topology = field.middle.grid.mesh.topology
     details = {
         "elements": float(topology.elements.shape[0]),
@@ -83,5 +84,5 @@ def by_fem(spec: Spec, gradient: Sequence[str] = ()) -> Evaluation:
         return found
     from fluxbore.optimize import hybrid_gradient
 
-    slopes, norms = hybrid_gradient.gradient(spec, field, positions, gradient, complete)
+    slopes, norms = hybrid_gradient.gradient(spec, field, positions, figures, gradient, complete)
     return replace(found, gradient=slopes, norms=norms)

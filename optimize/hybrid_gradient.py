@@ -25,7 +25,6 @@ from fluxbore.optimize.evaluation import Norm, PositionResult
 from fluxbore.optimize.hybrid_field import (
     LOAD_EXPONENT,
     Field,
-    field_figures,
     intrinsic_coercivity,
     linkage_vector,
     ranges,
@@ -44,18 +43,23 @@ Floats = Any
 
 
 def gradient(
-    spec: Spec, field: Field, positions: Sequence[PositionResult], keys: Sequence[str], complete: Complete
+    spec: Spec,
+    field: Field,
+    positions: Sequence[PositionResult],
+    true: Mapping[str, float | None],
+    keys: Sequence[str],
+    complete: Complete,
 ) -> tuple[dict[str, dict[str, float]], dict[str, Norm]]:
     """Figure -> key -> derivative (SI), and the norms of those figures that are maxima or follow from one.
 
-    positions : of the window, as the evaluation has them. Keys that are not continuous are passed over.
+    positions : of the window, as the evaluation has them. true : the field's figures. Keys that are not continuous are
+    passed over.
     """
     base = spec.pinned(keys)
     jacobians = Jacobians(base, field, differentiable(base, keys))
     if not jacobians.keys:
         return {}, {}
     slopes, norms = _field_slopes(base, field, positions, jacobians)
-    true = field_figures(spec, field, positions)
     smooth: dict[str, float | None] = {**true, **norms}
 
     def completed(moved: Spec, step: float, key: str) -> Performance:
