@@ -69,6 +69,11 @@ class Archive:
         return 0 if self.late else max(self.budget - kept - len(self.history), 0)
 
     @property
+    def derives(self) -> bool:
+        """Whether its designs are asked for derivatives."""
+        return bool(self._evaluator.gradient)
+
+    @property
     def late(self) -> bool:
         return time.monotonic() > self.deadline
 

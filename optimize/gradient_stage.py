@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from fluxbore.optimize.archive import Archive
@@ -12,7 +12,10 @@ from fluxbore.optimize.nlopt_loop import Ending
 from fluxbore.optimize.optimality import multipliers
 from fluxbore.optimize.outcome import Candidate
 from fluxbore.optimize.problem import Point
-from fluxbore.optimize.slopes import Slopes
+from fluxbore.optimize.slopes import NoSlopesError, Slopes
+
+BESIDE = 1e-3
+"""Of a variable's range: how far from a design without derivatives a neighbour lends it its own."""
 
 ROUNDS = 8
 """Runs of NLopt, each from where the one before ended; designs seen before cost nothing."""
@@ -24,6 +27,7 @@ class GradientStage:
 
     room : to leave to the limits (relative). tolerance : relative, of the objective.
     failed : designs without figures that the searches met. ended : the point at which the latest search ended.
+    ran : the algorithms of the latest search, in order.
     """
 
     archive: Archive
@@ -32,6 +36,7 @@ class GradientStage:
     tolerance: float
     failed: int = 0
     ended: Point = ()
+    ran: list[str] = field(default_factory=list)
     _seen: dict[Point, View] = field(default_factory=dict)
 
     def run(self, algorithm: str, start: Candidate) -> str:
@@ -40,7 +45,7 @@ class GradientStage:
         Settled: maximum / norm is the same before and after a round, and the first-order conditions hold or a round has
         gained nothing. Raises what stopped a run from within, NoSlopesError among it.
         """
-        self.ended = self.archive.box.point(start.values)
+        self.ended, self.ran = self.archive.box.point(start.values), []
         reason = self._rounds(algorithm)
         if algorithm == "SLSQP" or reason == NO_START or self.first_order(self.ended):
             return reason
@@ -54,6 +59,8 @@ class GradientStage:
             point = self.ended
             kappas = self.slopes.kappas(self.archive.at(point))
             ending = self._round(algorithm, point, kappas)
+            if self._seen and algorithm not in self.ran:
+                self.ran.append(algorithm)
             if ending.stopped_by is not None:
                 raise ending.stopped_by
             if ending.reason == NO_START:
@@ -94,11 +101,44 @@ class GradientStage:
     def at(self, x: Point, kappas: Mapping[str, float]) -> View | None:
         """What NLopt sees at a scaled point: the design's view with ``room`` left to the limits."""
         known = self.archive.knows(x)
-        view = self.slopes.view(self.archive.at(x), kappas)
+        view = self._view(x, kappas)
         if view is None:
             self.failed += not known
             return None
         return View(view.loss, tuple(miss + self.room for miss in view.misses), view.slope, view.miss_slopes)
+
+    def _view(self, x: Point, kappas: Mapping[str, float]) -> View | None:
+        """The design's view; where an interval vanishes and takes derivatives with it, with those of a neighbour.
+
+        At a ring of no width the section has fewer parts, and nothing says what a width would do; a thousandth of the
+        range away something does. None where there is no such neighbour. NoSlopesError where it has none either.
+        """
+        made = self.archive.at(x)
+        try:
+            return self.slopes.view(made, kappas)
+        except NoSlopesError as error:
+            beside = self.archive.at(self.neighbour(x, error.keys))
+            if not beside.evaluation.ok:
+                return None
+            return self.slopes.view(made, kappas, beside)
+
+    def neighbour(self, x: Point, keys: Sequence[str]) -> Point:
+        """The point a little nearer to the middle of these variables' ranges."""
+        moved = [
+            value if key not in keys else value + (BESIDE if value <= 0.5 else -BESIDE)
+            for key, value in zip(self.archive.box.keys, x, strict=True)
+        ]
+        return self.archive.box.tidy(moved)
+
+    def lender(self, made: Candidate) -> Candidate | None:
+        """The neighbour whose derivatives stood in for this design's; None where it has its own or there is none."""
+        point = self.archive.box.point(made.values)
+        try:
+            self.slopes.view(made, self.slopes.kappas(made))
+        except NoSlopesError as error:
+            beside = self.neighbour(point, error.keys)
+            return self.archive.at(beside) if self.archive.knows(beside) else None
+        return None
 
     def settled(self, kappas: Mapping[str, float], point: Point) -> bool:
         """Whether maximum / norm at the point is what the round took it for."""
@@ -107,7 +147,7 @@ class GradientStage:
 
     def first_order(self, point: Point) -> bool:
         """Whether the first-order conditions hold there."""
-        view = self.slopes.view(self.archive.at(point), self.slopes.kappas(self.archive.at(point)))
+        view = self._view(point, self.slopes.kappas(self.archive.at(point)))
         return view is not None and multipliers(view, point)[1] <= 10 * self.tolerance
 
     def _best(self, kappas: Mapping[str, float]) -> Point | None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 from fluxbore.design.spec import Spec
 from fluxbore.optimize import nlopt_loop
@@ -20,14 +21,27 @@ NETWORK_CALLS = 150
 """Calls of the network for each variable in the global search for its optimum; it costs a thousandth of the FEM."""
 
 
+@dataclass(frozen=True, slots=True)
+class NetworkStart:
+    """The network's own optimum, None where it finds none, and how often the network was called for it."""
+
+    best: Candidate | None
+    calls: int
+
+
 def network_optimum(base: Spec, bounds: Box, evaluate: Evaluate, counts: Counts | None = None) -> Candidate | None:
-    """The magnetic network's own optimum under those limits that it can evaluate; None where it finds none.
+    """`network_start`, its optimum alone."""
+    return network_start(base, bounds, evaluate, counts).best
+
+
+def network_start(base: Spec, bounds: Box, evaluate: Evaluate, counts: Counts | None = None) -> NetworkStart:
+    """The magnetic network's own optimum under those limits that it can evaluate.
 
     counts : of one combination; limits relative to the start refer to the start's own.
     Global (DIRECT-L), then local (COBYLA); a few hundred calls of microseconds, in this process.
     """
     if not bounds.keys:
-        return None
+        return NetworkStart(None, 0)
     objective = base.study.objective or DEFAULT_OBJECTIVE
     evaluator = Evaluator(base, SerialExecutor(), None, "network", evaluate, "search")
     start = evaluator.all([{}])[0].evaluation
@@ -60,7 +74,7 @@ def network_optimum(base: Spec, bounds: Box, evaluate: Evaluate, counts: Counts 
         )
         if ending.stopped_by is not None and not isinstance(ending.stopped_by, BudgetUsedError):
             raise ending.stopped_by
-    return archive.best
+    return NetworkStart(archive.best, 1 + len(archive.history))
 
 
 def objective_size(*designs: Candidate) -> float:

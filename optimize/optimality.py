@@ -65,12 +65,13 @@ def _sides(view: View, x: Point) -> tuple[Any, Any]:
     return sides, np.concatenate([np.abs(view.misses), np.asarray(x), 1 - np.asarray(x)])
 
 
-def optimality(slopes: Slopes, made: Candidate) -> Optimality | None:
+def optimality(slopes: Slopes, made: Candidate, beside: Candidate | None = None) -> Optimality | None:
     """How nearly the design is a local optimum, and what its limits cost; None where it lacks figures or derivatives.
 
     A figure with a norm has the norm's direction of steepest ascent and the maximum's value.
+    beside : a neighbour whose derivatives stand in for the design's own.
     """
-    view = slopes.own_view(made)
+    view = slopes.own_view(made, beside)
     if view is None or not slopes.box.keys:
         return None
     point = slopes.box.point(made.values)

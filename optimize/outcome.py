@@ -133,7 +133,8 @@ class SearchResult:
     reused : how many designs of the history stood in the journal already; seconds are this run's.
     stop_reason : a sentence; ending : what sort of end that was, whatever had been found by then.
     optimality : of ``best``; None where the model gives no gradients. conflict : where no design was feasible.
-    algorithm : the search that ran, where the study asks for "auto".
+    algorithm : what ran, in order, such as "MMA, then SLSQP"; of several combinations of counts,
+    for the one whose design is the best. network_calls : of the analytic network, for the start and by the mapping.
     """
 
     start: Candidate
@@ -149,6 +150,7 @@ class SearchResult:
     optimality: Optimality | None = None
     conflict: Conflict | None = None
     algorithm: str = ""
+    network_calls: int = 0
 
     @property
     def replayed(self) -> bool:

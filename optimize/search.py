@@ -54,7 +54,8 @@ def run_search(
     bounds = _bounds(base)
     given = gives_gradients(spec, evaluate) if gradients is None else gradients
     algorithm, remark = _algorithm(search.algorithm, given and bool(bounds.keys))
-    slopes = bounds.keys if algorithm in GRADIENT_ALGORITHMS else ()
+    wanted = algorithm in GRADIENT_ALGORITHMS or search.network == "manifold"
+    slopes = bounds.keys if given and wanted else ()
     run = SearchRun(
         base=base,
         bounds=bounds,

@@ -16,13 +16,13 @@ from fluxbore.optimize.archive import Archive
 from fluxbore.optimize.enumeration import Counts, distance, in_turn, show
 from fluxbore.optimize.evaluation import Evaluation
 from fluxbore.optimize.evaluator import Evaluated, Evaluator
-from fluxbore.optimize.network_start import network_optimum, objective_size
+from fluxbore.optimize.network_start import network_start, objective_size
 from fluxbore.optimize.optimality import optimality
 from fluxbore.optimize.outcome import Candidate, Limit, Optimality, SearchEnding, SearchResult
 from fluxbore.optimize.problem import Box, Merit, Point, better, candidate, resolve_limits
 from fluxbore.optimize.progress import Tracker
 from fluxbore.optimize.slopes import Slopes
-from fluxbore.optimize.stages import Stages, mishap
+from fluxbore.optimize.stages import Proposed, Stages, mishap
 from fluxbore.optimize.verdict import conflict_of, joined, shortfall
 
 
@@ -46,6 +46,7 @@ class SearchRun:
     stages: list[Stages] = field(default_factory=list)
     rounded: Candidate | None = None
     ending: SearchEnding = "done"
+    network_calls: int = 0
 
     def result(self, remark: str, begin: float) -> SearchResult:
         """Run the search. ``remark`` comes before the reason why it ended; ``begin`` is of `time.monotonic`."""
@@ -59,7 +60,7 @@ class SearchRun:
             start = self.as_candidate(done[0].evaluation, ())
             seconds = time.monotonic() - begin
             return SearchResult(
-                start, network, (start,), (None,), None, None, str(error), seconds, algorithm=self.algorithm
+                start, network, (start,), (None,), None, None, str(error), seconds, network_calls=self.network_calls
             )
         start = self.as_candidate(done[0].evaluation, limits)
         merit = Merit(self.objective, objective_size(start, *(network,) if network else ()))
@@ -82,8 +83,15 @@ class SearchRun:
             reused=sum(stages.archive.reused for stages in self.stages),
             optimality=self.optimality(best),
             conflict=conflict,
-            algorithm=self.algorithm,
+            algorithm=self.ran,
+            network_calls=self.network_calls + sum(stages.network_calls for stages in self.stages),
         )
+
+    @property
+    def ran(self) -> str:
+        """What searched, for the best design where there is one."""
+        stages = self.winner or (self.stages[-1] if self.stages else None)
+        return "" if stages is None else ", then ".join(stages.ran)
 
     @cached_property
     def objective(self) -> Objective:
@@ -132,7 +140,9 @@ class SearchRun:
     def network_start(self, counts: Counts) -> Candidate | None:
         if self.base.study.search.network == "off":
             return None
-        return network_optimum(self.base, self.bounds, self.evaluator.evaluate, counts)
+        found = network_start(self.base, self.bounds, self.evaluator.evaluate, counts)
+        self.network_calls += found.calls
+        return found.best
 
     def first_designs(self, counts: Counts, network: Candidate | None) -> list[dict[str, float]]:
         """Side by side: the start as it is (limits refer to it), clipped into the bounds, the network's."""
@@ -204,13 +214,13 @@ class SearchRun:
                 search.relative_tolerance,
             )
 
-            def propose(archive: Archive, start: Point) -> str:
-                from fluxbore.optimize.space_mapping import manifold
+            def propose(archive: Archive, start: Point) -> Proposed:
+                from fluxbore.optimize.space_mapping import run_mapping
                 from fluxbore.optimize.space_mapping_network import network_model
 
-                return manifold(
-                    archive, merit, held, network_model(archive, base, evaluate), start, tolerance, back_off
-                )
+                network = network_model(archive, base, evaluate)
+                found = run_mapping(archive, merit, held, network, start, tolerance, back_off)
+                return Proposed("manifold mapping", found.reason, found.converged, found.network_calls)
 
             stages.propose = propose
         return stages
@@ -272,7 +282,7 @@ class SearchRun:
                 evaluation = asking.all([best.values])[0].evaluation
                 keys = (*self.bounds.keys, *self.start_counts)
                 best = candidate(asking.design(best.values), self.objective, winner.archive.limits, keys, evaluation)
-            return optimality(winner.slopes, best)
+            return optimality(winner.slopes, best, winner.gradient.lender(best))
         except KeyboardInterrupt:
             self.ending = "interrupted"
         except Exception:  # the design is found; what its limits cost is not worth losing it

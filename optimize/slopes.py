@@ -23,7 +23,14 @@ KEY_STEP = 1e-6
 
 
 class NoSlopesError(Exception):
-    """A sound design does not bring the derivatives of the figure that is named."""
+    """A sound design does not bring the derivatives of the figure that is named.
+
+    keys : the variables by which they are missing.
+    """
+
+    def __init__(self, subject: str = "", keys: Sequence[str] = ()) -> None:
+        super().__init__(subject)
+        self.keys = tuple(keys)
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,14 +55,18 @@ class Slopes:
                 found[figure] = value / norms[figure].value
         return found
 
-    def view(self, made: Candidate, kappas: Mapping[str, float]) -> View | None:
-        """The design's view; None where it lacks a figure. NoSlopesError where it lacks a derivative."""
+    def view(self, made: Candidate, kappas: Mapping[str, float], beside: Candidate | None = None) -> View | None:
+        """The design's view; None where it lacks a figure. NoSlopesError where it lacks a derivative.
+
+        beside : a sound design whose derivatives stand in for the design's own.
+        """
         loss = self.merit.loss(made)
         misses = self.merit.misses(made, self.held)
         values = {item.limit: item.value for item in made.checks}
         if not made.evaluation.ok or loss is None or any(values.get(limit) is None for limit in self.held):
             return None
         objective = self.merit.objective
+        source = made if beside is None else beside
         factor = (-1.0 if objective.maximise else 1.0) / self.merit.scale
         smooth = _smooth(made.evaluation, objective.figure, kappas)
         slopes = []
@@ -64,18 +75,18 @@ class Slopes:
             unit = (1.0 if limit.sense == "<=" else -1.0) / (abs(limit.limit) or 1.0)
             value = _smooth(made.evaluation, limit.subject, kappas)
             smoothed.append(miss if value is None else unit * (value - limit.limit))
-            slopes.append(tuple(unit * slope for slope in self._row(made, limit.subject, kappas)))
+            slopes.append(tuple(unit * slope for slope in self._row(source, limit.subject, kappas)))
         return View(
             loss if smooth is None else factor * smooth,
             tuple(smoothed),
-            tuple(factor * slope for slope in self._row(made, objective.figure, kappas)),
+            tuple(factor * slope for slope in self._row(source, objective.figure, kappas)),
             tuple(slopes),
         )
 
-    def own_view(self, made: Candidate) -> View | None:
+    def own_view(self, made: Candidate, beside: Candidate | None = None) -> View | None:
         """The view with the design's own kappas, so that values are the maxima's; None without all derivatives."""
         try:
-            return self.view(made, self.kappas(made))
+            return self.view(made, self.kappas(made), beside)
         except NoSlopesError:
             return None
 
@@ -90,8 +101,9 @@ class Slopes:
             return self._key_row(made, subject, spans)
         row = (made.evaluation.gradient or {}).get(subject, {})
         slopes = [row.get(key, math.nan) for key in self.box.keys]
-        if not all(math.isfinite(slope) for slope in slopes):
-            raise NoSlopesError(subject)
+        missing = [key for key, slope in zip(self.box.keys, slopes, strict=True) if not math.isfinite(slope)]
+        if missing:
+            raise NoSlopesError(subject, missing)
         kappa = kappas.get(subject, 1.0) if subject in (made.evaluation.norms or {}) else 1.0
         return tuple(kappa * slope * span for slope, span in zip(slopes, spans, strict=True))
 

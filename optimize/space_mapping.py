@@ -37,19 +37,6 @@ class Mapped:
     exact: bool
 
 
-def manifold(
-    archive: Archive,
-    merit: Merit,
-    held: Sequence[Limit],
-    network: Network,
-    start: Point,
-    tolerance: float,
-    back_off: float = 0.0,
-) -> str:
-    """`run_mapping`, its reason alone."""
-    return run_mapping(archive, merit, held, network, start, tolerance, back_off).reason
-
-
 def run_mapping(
     archive: Archive,
     merit: Merit,

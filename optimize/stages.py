@@ -28,8 +28,22 @@ GLOBAL_SHARE = 0.6
 RESTORING_SHARE = 0.25
 """Of the budget, kept back as long as no design is feasible: to find the least infeasible one."""
 
-Propose = Callable[[Archive, Point], str]
-"""A search in place of NLopt's, from a scaled point; returns why it ended."""
+
+@dataclass(frozen=True, slots=True)
+class Proposed:
+    """How a search in place of NLopt's went.
+
+    name : its name. reason : a sentence. network_calls : of the analytic network.
+    """
+
+    name: str
+    reason: str
+    converged: bool
+    network_calls: int
+
+
+Propose = Callable[[Archive, Point], Proposed]
+"""A search in place of NLopt's, from a scaled point; NLopt's goes on where it has not converged."""
 
 
 @dataclass
@@ -42,7 +56,7 @@ class Stages:
     what they find feasible.
     propose : the search to run in place of NLopt's, or None.
     spare : further designs for the time when nothing feasible was found: there will be nothing to round.
-    ending : how `run` ended.
+    ending : how `run` ended. ran : names of what searched, in order. network_calls : by ``propose``.
     """
 
     archive: Archive
@@ -55,6 +69,8 @@ class Stages:
     propose: Propose | None = None
     spare: int = 0
     ending: SearchEnding = "done"
+    ran: list[str] = field(default_factory=list)
+    network_calls: int = 0
     penalties: dict[Point, float] = field(default_factory=dict)
 
     @cached_property
@@ -90,13 +106,32 @@ class Stages:
             archive.reserve = int(RESTORING_SHARE * archive.left)
         origin = self.best_known()
         try:
-            if self.propose is not None:
-                return self.propose(archive, archive.box.point(origin.values))
-            if self.algorithm in GRADIENT_ALGORITHMS:
-                return self.by_gradients(origin)
-            return self.freely(self.algorithm, origin)
+            return self.proposed(self.propose, origin) if self.propose is not None else self.by_nlopt(origin)
         except BudgetUsedError as error:
             return self.spent(error)
+
+    def proposed(self, propose: Propose, origin: Candidate) -> str:
+        """The search in place of NLopt's, and NLopt's from the best design where that one has not converged."""
+        found = propose(self.archive, self.archive.box.point(origin.values))
+        self.note(found.name)
+        self.network_calls += found.network_calls
+        if found.converged or not self.archive.left:
+            return found.reason
+        try:
+            more = self.by_nlopt(self.best_known())
+        except BudgetUsedError as error:
+            more = self.spent(error)
+        return f"{found.reason} {self.algorithm} went on from its best. {more}"
+
+    def by_nlopt(self, origin: Candidate) -> str:
+        if self.algorithm in GRADIENT_ALGORITHMS:
+            return self.by_gradients(origin)
+        return self.freely(self.algorithm, origin)
+
+    def note(self, name: str) -> None:
+        """Take down what searches; what goes on after the looking for a feasible design is not told twice."""
+        if self.ran[-1:] != [name]:
+            self.ran.append(name)
 
     def restored(self, reason: str) -> str:
         """Where nothing feasible was found: look for the least infeasible design, and search on where it is feasible.
@@ -110,7 +145,7 @@ class Stages:
         archive.budget += self.spare
         try:
             try:
-                if self.algorithm not in GRADIENT_ALGORITHMS:
+                if not archive.derives:
                     raise NoSlopesError
                 elastic.approach(self.gradient, nearest)
             except NoSlopesError:
@@ -127,11 +162,17 @@ class Stages:
         """SLSQP, MMA or CCSAQ, or SLSQP from many places; COBYLA where derivatives are missing or do not lead on."""
         try:
             if self.algorithm == "MLSL":
+                self.note("MLSL")
                 return search_from_many(self.gradient, self.search.seed)
             reason = self.gradient.run(self.algorithm, origin)
         except NoSlopesError as error:
+            self.note_gradients()
             words = f"The model gives no derivative of {error}, so COBYLA searched in place of {self.algorithm}. "
             return words + self.freely("COBYLA", origin)
+        except BudgetUsedError:
+            self.note_gradients()
+            raise
+        self.note_gradients()
         if reason == NO_START:
             return f"{reason} COBYLA searched instead. " + self.freely("COBYLA", origin)
         best = self.archive.best
@@ -140,16 +181,22 @@ class Stages:
         words = f"Designs without figures kept {self.algorithm} from going on, so COBYLA looked around its best. "
         return words + self.freely("COBYLA", best)
 
+    def note_gradients(self) -> None:
+        for name in self.gradient.ran if self.algorithm != "MLSL" else ():
+            self.note(name)
+
     def freely(self, algorithm: str, origin: Candidate) -> str:
         """A search without derivatives: a global one is followed by a local one, and that by the polishing."""
         archive, reason = self.archive, ""
         point = archive.box.point(origin.values)
         try:
             if algorithm in nlopt_loop.GLOBAL:
+                self.note(algorithm)
                 reason = f"{algorithm} looked at the whole range; then COBYLA looked around its best. "
                 self.explore(point)
                 point = point if archive.best is None else archive.box.point(archive.best.values)
-            local = "BOBYQA" if algorithm == "BOBYQA" else "COBYLA"
+            local = "BOBYQA" if algorithm == "BOBYQA" and len(point) > 1 else "COBYLA"
+            self.note(local)
             self.prefetch(point, both=local == "BOBYQA")
             reason += self.loop(local, point)
             polish(archive, self.merit, self.held, self.back_off, self.search.relative_tolerance / 10)

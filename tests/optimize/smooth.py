@@ -120,3 +120,26 @@ def unkept(design, fidelity="fem", gradient=()):
 
 def nothing(design, fidelity="fem", gradient=()):
     return failure(fidelity, NOT_CONVERGED, "No convergence.")
+
+
+def contrary(design, fidelity="fem", gradient=()):
+    """`rosenbrock` whose derivatives all have the wrong sign."""
+    evaluation = rosenbrock(design, fidelity, gradient)
+    turned = {name: {key: -slope for key, slope in row.items()} for name, row in (evaluation.gradient or {}).items()}
+    return replace(evaluation, gradient=turned or None)
+
+
+def vanishing(design, fidelity="fem", gradient=()):
+    """`rosenbrock` that has no derivatives by y where y is 0, as where a part of an actuator vanishes."""
+    evaluation = rosenbrock(design, fidelity, gradient)
+    if not evaluation.gradient or design.number(Y) != 0.0:
+        return evaluation
+    kept = {name: {key: row[key] for key in row if key != Y} for name, row in evaluation.gradient.items()}
+    return replace(evaluation, gradient=kept)
+
+
+def edge(design, fidelity="fem", gradient=()):
+    """`vanishing` that has no figures at all next to y = 0."""
+    if fidelity == "fem" and 0.0 < design.number(Y) < 0.01:
+        return failure(fidelity, NOT_CONVERGED, "No convergence.")
+    return vanishing(design, fidelity, gradient)
