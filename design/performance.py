@@ -6,14 +6,25 @@ give is ``None``, never a guess.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, fields
 
 from fluxbore.design.units import DIMENSIONS, format_quantity
 
+FORCE, FIELD, WINDING, DRIVE, HEAT, PRESSURE, SIZE = GROUPS = (
+    "Force",
+    "Magnetic field",
+    "Winding",
+    "Drive",
+    "Losses and heat",
+    "Air cylinder and rod",
+    "Size and mass",
+)
+"""Headings under which tables for people put the figures, in this order."""
 
-def _figure(dimension: str, doc: str, *, signed: bool = False) -> float | None:
-    return field(default=None, metadata={"dimension": dimension, "doc": doc, "signed": signed})
+
+def _figure(dimension: str, group: str, doc: str, *, signed: bool = False) -> float | None:
+    return field(default=None, metadata={"dimension": dimension, "group": group, "doc": doc, "signed": signed})
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -22,163 +33,193 @@ class Performance:
 
     force_constant: float | None = _figure(
         "force constant",
+        FORCE,
         "thrust per ampere of balanced three-phase current amplitude on the q axis, incremental at no current, "
         "mean over the window of positions; by the stress tensor in the FEM, by equation (2) in the network",
     )
     force_constant_linkage: float | None = _figure(
-        "force constant", "the same from the fundamental of the phases' flux linkages: 3/2 (pi/tau) lambda_1"
+        "force constant", FORCE, "the same from the fundamental of the phases' flux linkages: 3/2 (pi/tau) lambda_1"
     )
-    motor_constant: float | None = _figure("motor constant", "force constant over the root of 3/2 the phase resistance")
-    winding_resistance: float | None = _figure("resistance", "of one phase, at the winding's temperature")
-    turns: float | None = _figure("count", "turns of one phase; fractional where a density of turns is held")
+    motor_constant: float | None = _figure(
+        "motor constant", FORCE, "force constant over the root of 3/2 the phase resistance"
+    )
+    winding_resistance: float | None = _figure("resistance", WINDING, "of one phase, at the winding's temperature")
+    turns: float | None = _figure("count", WINDING, "turns of one phase; fractional where a density of turns is held")
     pneumatic_force_advance: float | None = _figure(
-        "force", "gauge pressure times the catalogue bore's area", signed=True
+        "force", FORCE, "gauge pressure times the catalogue bore's area", signed=True
     )
-    pneumatic_force_retract: float | None = _figure("force", "the same less the shaft's area", signed=True)
-    moving_mass: float | None = _figure("mass", "shaft, magnets, rings and pistons")
-    total_mass: float | None = _figure("mass", "all parts")
+    pneumatic_force_retract: float | None = _figure("force", FORCE, "the same less the shaft's area", signed=True)
+    moving_mass: float | None = _figure("mass", SIZE, "shaft, magnets, rings and pistons")
+    total_mass: float | None = _figure("mass", SIZE, "all parts")
     stray_field: float | None = _figure(
         "flux density",
+        FIELD,
         "largest flux density at no current on a cylinder 5 mm outside the yoke, from 20 mm before to 20 mm beyond it, "
         "over the window",
     )
     yoke_flux_density: float | None = _figure(
         "flux density",
+        FIELD,
         "axial flux density averaged over the yoke's cross-section, largest along it and over the window",
     )
     ring_flux_density: float | None = _figure(
-        "flux density", "radial flux density at the outside of an inner soft-magnetic ring, mean over its width"
+        "flux density", FIELD, "radial flux density at the outside of an inner soft-magnetic ring, mean over its width"
     )
     gap_flux_density: float | None = _figure(
-        "flux density", "mean radial flux density at the cylinder's outside over tau_f + 2 g_ac around a pole"
+        "flux density", FIELD, "mean radial flux density at the cylinder's outside over tau_f + 2 g_ac around a pole"
     )
-    cogging_force: float | None = _figure("force", "largest axial force at no current over the window")
+    cogging_force: float | None = _figure("force", FORCE, "largest axial force at no current over the window")
     demagnetised_fraction: float | None = _figure(
-        "fraction", "share of the magnets' volume whose reverse field exceeds the intrinsic coercivity at temperature"
+        "fraction",
+        FIELD,
+        "share of the magnets' volume whose reverse field exceeds the intrinsic coercivity at temperature",
     )
     electric_loading: float | None = _figure(
-        "electric loading", "peak K_sp of the sinusoidal current sheet at the spec's current"
+        "electric loading", WINDING, "peak K_sp of the sinusoidal current sheet at the spec's current"
     )
     # The drive: what the field and the supply allow.
     phase_inductance: float | None = _figure(
         "inductance",
+        DRIVE,
         "flux linkage of a phase per ampere of balanced three-phase current (self less mutual), incremental at no "
         "current",
     )
     peak_force: float | None = _figure(
         "force",
+        FORCE,
         "thrust at the peak current on the q axis in the middle of the window, less the cogging there",
         signed=True,
     )
     saturation_ratio: float | None = _figure(
-        "fraction", "peak force over force constant times peak current: 100 % without saturation"
+        "fraction", FORCE, "peak force over force constant times peak current: 100 % without saturation"
     )
     peak_thrust: float | None = _figure(
         "force",
+        FORCE,
         "pneumatic force, advancing, and the electromagnetic force at the peak current",
         signed=True,
     )
-    back_emf: float | None = _figure("voltage", "amplitude of a phase at the speed: 2/3 of force constant times speed")
+    back_emf: float | None = _figure(
+        "voltage", DRIVE, "amplitude of a phase at the speed: 2/3 of force constant times speed"
+    )
     voltage_demand: float | None = _figure(
-        "voltage", "amplitude of a phase that the current needs at the speed, over resistance, inductance and back-EMF"
+        "voltage",
+        DRIVE,
+        "amplitude of a phase that the current needs at the speed, over resistance, inductance and back-EMF",
     )
     voltage_margin: float | None = _figure(
         "voltage",
+        DRIVE,
         "supply voltage over the root of 3 less the voltage demand; below zero the supply is too low",
         signed=True,
     )
-    no_load_speed: float | None = _figure("speed", "at which the back-EMF alone takes the whole supply voltage")
+    no_load_speed: float | None = _figure("speed", DRIVE, "at which the back-EMF alone takes the whole supply voltage")
     speed_limit: float | None = _figure(
         "speed",
+        DRIVE,
         "to which the supply voltage can push the spec's current; below zero not even at rest",
         signed=True,
     )
     # The magnets under the worst of no current and peak current.
     demagnetisation_load: float | None = _figure(
         "fraction",
+        FIELD,
         "reverse field in the magnets over their intrinsic coercivity at temperature, by its 8-norm over their volume; "
         "the worst of no current over the window and the peak current of either sign",
     )
     peak_demagnetised_fraction: float | None = _figure(
-        "fraction", "the demagnetised fraction at the peak current, on the q axis of either sign"
+        "fraction", FIELD, "the demagnetised fraction at the peak current, on the q axis of either sign"
     )
     # Losses and temperature.
-    copper_loss: float | None = _figure("power", "3/2 I^2 R at the spec's current amplitude")
+    copper_loss: float | None = _figure("power", HEAT, "3/2 I^2 R at the spec's current amplitude")
     iron_loss: float | None = _figure(
-        "power", "hysteresis and eddy currents of the solid yoke at the speed, over the magnet array's length"
+        "power", HEAT, "hysteresis and eddy currents of the solid yoke at the speed, over the magnet array's length"
     )
     eddy_loss: float | None = _figure(
-        "power", "eddy currents in the cylinder's wall at the speed, over the magnet array's length"
+        "power", HEAT, "eddy currents in the cylinder's wall at the speed, over the magnet array's length"
     )
-    drag_force: float | None = _figure("force", "braking force of the eddy currents and of the yoke's hysteresis")
+    drag_force: float | None = _figure("force", HEAT, "braking force of the eddy currents and of the yoke's hysteresis")
     winding_temperature: float | None = _figure(
         "temperature",
+        HEAT,
         "mean of the winding, in steady state in still air, at the spec's current, duty and speed; not given where the "
         "copper runs away",
     )
     continuous_current: float | None = _figure(
         "current",
+        HEAT,
         "amplitude that heats the winding to its limit at the spec's duty and speed; below zero where the other losses "
         "alone exceed it",
         signed=True,
     )
-    continuous_thrust: float | None = _figure("force", "force constant times continuous current", signed=True)
+    continuous_thrust: float | None = _figure("force", HEAT, "force constant times continuous current", signed=True)
     # The air cylinder and the rod.
     hoop_stress: float | None = _figure(
-        "stress", "circumferential, at the bore of the cylinder under the pressure", signed=True
+        "stress", PRESSURE, "circumferential, at the bore of the cylinder under the pressure", signed=True
     )
     cylinder_safety: float | None = _figure(
-        "count", "yield stress of the cylinder over its equivalent (von Mises) stress at the bore"
+        "count", PRESSURE, "yield stress of the cylinder over its equivalent (von Mises) stress at the bore"
     )
     bore_dilation: float | None = _figure(
         "length",
+        PRESSURE,
         "radial displacement of the bore under the pressure; inwards, below zero, under vacuum",
         signed=True,
     )
     bore_clearance: float | None = _figure(
         "length",
+        PRESSURE,
         "radial, between mover and bore: (D_c' - D_m)/2 and the bore dilation, which opens it under pressure",
         signed=True,
     )
-    shaft_stress: float | None = _figure("stress", "axial, under the peak thrust", signed=True)
-    shaft_safety: float | None = _figure("count", "yield stress of the shaft over the shaft stress")
+    shaft_stress: float | None = _figure("stress", PRESSURE, "axial, under the peak thrust", signed=True)
+    shaft_safety: float | None = _figure("count", PRESSURE, "yield stress of the shaft over the shaft stress")
     buckling_force: float | None = _figure(
-        "force", "critical axial load of the rod's free length when extended, by Euler and, where stocky, by Johnson"
+        "force",
+        PRESSURE,
+        "critical axial load of the rod's free length when extended, by Euler and, where stocky, by Johnson",
     )
-    buckling_safety: float | None = _figure("count", "buckling force over peak thrust")
+    buckling_safety: float | None = _figure("count", PRESSURE, "buckling force over peak thrust")
     seal_friction: float | None = _figure(
-        "force", "kinetic friction of the piston's seals at pressure and speed; at rest that of breaking away"
+        "force", PRESSURE, "kinetic friction of the piston's seals at pressure and speed; at rest that of breaking away"
     )
     # What a workshop makes.
-    fill_factor: float | None = _figure("fraction", "share of the winding's window that is copper")
+    fill_factor: float | None = _figure("fraction", WINDING, "share of the winding's window that is copper")
     winding_layers: float | None = _figure(
-        "count", "layers of insulated wire in a coil, as a continuous number: turns times wire over the coil's width"
+        "count",
+        WINDING,
+        "layers of insulated wire in a coil, as a continuous number: turns times wire over the coil's width",
     )
     winding_room: float | None = _figure(
         "length",
+        WINDING,
         "radial room that the layers leave in the window, wires stacked in squares; below zero they do not fit",
         signed=True,
     )
-    yoke_wall: float | None = _figure("length", "wall of the back yoke")
-    cylinder_wall: float | None = _figure("length", "wall of the air cylinder")
-    magnet_wall: float | None = _figure("length", "radial wall of the magnets: (D_m - D_s)/2")
-    outer_diameter: float | None = _figure("length", "of the whole actuator")
-    length: float | None = _figure("length", "of the stator over its end caps")
+    yoke_wall: float | None = _figure("length", SIZE, "wall of the back yoke")
+    cylinder_wall: float | None = _figure("length", SIZE, "wall of the air cylinder")
+    magnet_wall: float | None = _figure("length", SIZE, "radial wall of the magnets: (D_m - D_s)/2")
+    outer_diameter: float | None = _figure("length", SIZE, "of the whole actuator")
+    length: float | None = _figure("length", SIZE, "of the stator over its end caps")
     # Coils in free space.
-    stored_energy: float | None = _figure("energy", "of the magnetic field of all coils")
-    central_flux_density: float | None = _figure("flux density", "on the axis at z = 0")
+    stored_energy: float | None = _figure("energy", FIELD, "of the magnetic field of all coils")
+    central_flux_density: float | None = _figure("flux density", FIELD, "on the axis at z = 0")
     stray_flux_density: float | None = _figure(
-        "flux density", "root of the mean square over the points of the two lines on which the stray field is read"
+        "flux density",
+        FIELD,
+        "root of the mean square over the points of the two lines on which the stray field is read",
     )
-    winding_flux_density: float | None = _figure("flux density", "largest on the skin of any winding")
+    winding_flux_density: float | None = _figure("flux density", FIELD, "largest on the skin of any winding")
     quench_load: float | None = _figure(
         "count",
+        FIELD,
         "largest |J|/J_c + B/B_c of any winding, J_c and B_c being the superconductor's limits without field and "
         "without current; above one it quenches",
     )
-    joule_loss: float | None = _figure("power", "of the current densities in the windings' conductor")
+    joule_loss: float | None = _figure("power", HEAT, "of the current densities in the windings' conductor")
     merit: float | None = _figure(
         "count",
+        FIELD,
         "(stray flux density / its norm)^2 + |stored energy - its reference| / its reference, the objective of the "
         "TEAM workshop's problem 22",
     )
@@ -186,17 +227,21 @@ class Performance:
 
 @dataclass(frozen=True, slots=True)
 class Figure:
-    """What a figure is: its dimension's name, SI unit, meaning, and whether it can fall below zero."""
+    """What a figure is: its dimension's name, SI unit, meaning, whether it can fall below zero, one of `GROUPS`."""
 
     name: str
     dimension: str
     si: str
     doc: str
     signed: bool
+    group: str
 
 
 SMALL_FIELD = 0.01
 """T, below which a flux density is shown in millitesla."""
+
+HEAVY = 10.0
+"""kg, from which a mass is shown in kilograms."""
 
 _PLAIN = {"count": "1", "fraction": "1", "power": "W"}
 
@@ -207,10 +252,18 @@ FIGURES: dict[str, Figure] = {
         _PLAIN.get(item.metadata["dimension"]) or DIMENSIONS[item.metadata["dimension"]].si,
         item.metadata["doc"],
         item.metadata["signed"],
+        item.metadata["group"],
     )
     for item in fields(Performance)
 }
 """Every figure by name, in the order of the results table."""
+
+
+def grouped(names: Iterable[str]) -> tuple[tuple[str, tuple[str, ...]], ...]:
+    """The figures under their headings, each in the order of `FIGURES`; headings without a figure are left out."""
+    wanted = set(names)
+    found = ((group, tuple(n for n, f in FIGURES.items() if f.group == group and n in wanted)) for group in GROUPS)
+    return tuple((group, members) for group, members in found if members)
 
 
 def to_mapping(performance: Performance) -> dict[str, float | None]:
@@ -232,6 +285,8 @@ def show_figure(name: str, value: float | None, digits: int = 5) -> str:
         return f"{100 * value:.{digits}g} %"
     if figure.dimension == "flux density" and 0 < abs(value) < SMALL_FIELD:
         return f"{1e3 * value:.{digits}g} mT"
+    if figure.dimension == "mass" and abs(value) >= HEAVY:
+        return f"{value:.0f} kg" if abs(value) >= 10**digits else f"{value:.{digits}g} kg"
     if figure.dimension in DIMENSIONS:
         return format_quantity(value, figure.dimension, digits)
     return f"{value:.{digits}g}" + ("" if figure.si == "1" else f" {figure.si}")

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 from fluxbore.design.keys import Key
-from fluxbore.design.performance import FIGURES, SMALL_FIELD
+from fluxbore.design.performance import FIGURES, HEAVY, SMALL_FIELD
 from fluxbore.design.units import DIFFERENCES, DIMENSIONS
 
 
@@ -26,10 +26,12 @@ _PLAIN = {"fraction": Measure(0.01, "%"), "power": Measure(1.0, "W")}
 
 
 def measure(dimension: str, size: float = 1.0) -> Measure:
-    """The preferred unit for differences of this dimension; a flux density of a small ``size`` (SI) is in mT."""
+    """The preferred unit for differences of this dimension; by ``size`` (SI) mT for weak fields, kg for big masses."""
     name = DIFFERENCES.get(dimension, dimension)
     if name == "flux density" and abs(size) < SMALL_FIELD:
         return Measure(DIMENSIONS[name].units["mT"].factor, "mT")
+    if name == "mass" and abs(size) >= HEAVY:
+        return Measure(1.0, "kg")
     if name not in DIMENSIONS:
         return _PLAIN.get(name, Measure(1.0, ""))
     table = DIMENSIONS[name]

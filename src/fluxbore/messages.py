@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import asdict
 from typing import Any
 
-from fluxbore.design.performance import FIGURES, show_figure
+from fluxbore.design.performance import grouped, show_figure, to_mapping
 from fluxbore.design.spec import Spec
 from fluxbore.optimize.evaluation import Evaluation, to_plain
 from fluxbore.optimize.outcome import SweepResult
@@ -83,17 +83,16 @@ def evaluation_plain(spec: Spec, evaluation: Evaluation) -> dict[str, Any]:
 
 
 def evaluation_text(spec: Spec, evaluation: Evaluation) -> str:
-    """The figures as a table, or why there are none."""
+    """The figures under the headings of their groups, or why there are none."""
     if not evaluation.ok:
         return f"{evaluation.status}: " + " ".join(evaluation.reasons)
-    width = max(len(name) for name in FIGURES)
+    known = {name: value for name, value in to_mapping(evaluation.performance).items() if value is not None}
+    width = max((len(name) for name in known), default=0)
     lines = [f"By {route(spec, evaluation.fidelity)}:"]
-    for name in FIGURES:
-        value = getattr(evaluation.performance, name)
-        if value is not None:
-            lines.append(f"{name:<{width}}  {show_figure(name, value)}")
+    for group, names in grouped(known):
+        lines += ["", group, *(f"  {name:<{width}}  {show_figure(name, known[name])}" for name in names)]
     lines += ["", *evaluation.warnings] if evaluation.warnings else []
-    if evaluation.fidelity == "network":
+    if evaluation.fidelity == "network" and "force_constant" in known:
         from fluxbore.design.magnetic_network import UPPER_BOUND
 
         lines += ["", f"force_constant: {UPPER_BOUND[0].lower()}{UPPER_BOUND[1:]}"]

@@ -2,7 +2,7 @@
 
 import pytest
 
-from fluxbore.design.performance import FIGURES, Performance, from_mapping, to_mapping
+from fluxbore.design.performance import FIGURES, GROUPS, Performance, from_mapping, grouped, show_figure, to_mapping
 from fluxbore.design.units import DIMENSIONS
 
 PROMISED = (
@@ -42,3 +42,19 @@ def test_the_plain_form_loses_nothing():
     assert list(to_mapping(performance)) == list(FIGURES)
     with pytest.raises(TypeError):
         from_mapping({"no_such_figure": 1.0})
+
+
+def test_every_figure_stands_under_one_heading():
+    """Catches a figure that a grouped table would swallow, and an empty heading."""
+    every = [name for _, names in grouped(FIGURES) for name in names]
+    assert sorted(every) == sorted(FIGURES)
+    assert [group for group, _ in grouped(FIGURES)] == list(GROUPS)
+    assert grouped(["length", "turns"]) == (("Winding", ("turns",)), ("Size and mass", ("length",)))
+
+
+@pytest.mark.parametrize(
+    ("mass", "shown"),
+    [(0.20488, "204.88 g"), (9.99, "9990 g"), (10.0, "10 kg"), (81194.1, "81194 kg"), (103_698.0, "103698 kg")],
+)
+def test_masses_of_tonnes_are_not_in_grams(mass, shown):
+    assert show_figure("total_mass", mass) == shown
