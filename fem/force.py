@@ -6,72 +6,61 @@ import numpy as np
 
 from fluxbore.fem.element import QUADRATURE_POINTS, shape
 from fluxbore.fem.magnetostatics import Solution
-from fluxbore.fem.mesh import Floats, Ints
+from fluxbore.fem.mesh import Floats
 from fluxbore.fem.moved_points import node_derivative
 from fluxbore.fem.reluctivity import VACUUM_RELUCTIVITY
 
 
-def axial_force_gradient(solution: Solution, annulus: tuple[float, float], field: Floats | None = None) -> Floats:
-    """g (n,) with  F = ½ g·ψ  and  ∂F/∂ψ = g, for the axial force F (N) on everything inside the annulus.
+class ForceShell:
+    """The annulus of air in which the force F = ½ ψᵀ G ψ on everything inside it is measured.
 
     annulus : (r from, r to) in m, mesh lines, with nothing but air (μ0) between them over the domain's whole length.
-    field : (n,) in place of ψ, on which g depends linearly: F is ½ ψᵀ G ψ, and g is G times the field.
 
     The weight falls linearly in s = r²/2 from one at the inner to zero at the outer radius, so that
     F = −(2π/μ0) ∫∫ ∂ψ/∂z ∂ψ/∂s ds dz / (s_o − s_i): Maxwell's stress averaged over the shell (Arkkio 1987), and at the
     same time the exact derivative of the discrete energy when the mesh inside is shifted (Coulomb 1983).
     """
-    mesh = solution.problem.mesh
-    shell = _shell(solution, annulus)
-    curl = solution.system.kernel.curl[shell]
-    values = (solution.psi if field is None else field)[mesh.elements[shell]]
-    rows = np.einsum("mqkn,mn->mqk", curl, values, optimize=True)
-    # Row 1 of the kernel is ψ_z/√(2s): take the radius out again.
-    factor = _scale(annulus) * solution.system.kernel.weight[shell] * _radius(solution, shell)
-    gradient = np.einsum(
-        "mqn,mq->mn", curl[:, :, 0] * rows[:, :, 1, None] + curl[:, :, 1] * rows[:, :, 0, None], factor, optimize=True
-    )
-    return np.asarray(np.bincount(mesh.elements[shell].ravel(), gradient.ravel(), mesh.nodes.shape[0]))
+
+    def __init__(self, solution: Solution, annulus: tuple[float, float]) -> None:
+        mesh = solution.problem.mesh
+        s_inner, s_outer = annulus[0] ** 2 / 2, annulus[1] ** 2 / 2
+        corners = mesh.nodes[mesh.elements[:, :3], 0]
+        slack = 1e-9 * s_outer
+        shell = np.flatnonzero(np.all((corners > s_inner - slack) & (corners < s_outer + slack), axis=1))
+        s = np.einsum("qn,mn->mq", shape(QUADRATURE_POINTS), mesh.nodes[mesh.elements[shell], 0], optimize=True)
+        self._mesh, self._shell, self._width = mesh, shell, s_outer - s_inner
+        self._nodes = mesh.elements[shell]
+        self._rows = solution.system.kernel.curl[shell].reshape(shell.size, -1, 6)
+        self._weight = solution.system.kernel.weight[shell]
+        # Row 1 of the kernel is ∂_z/√(2s): take the radius out again.
+        self._scale = -2 * np.pi * VACUUM_RELUCTIVITY / self._width * np.sqrt(2 * s)
+
+    def gradient(self, field: Floats) -> Floats:
+        """(n,) G times a nodal field (n,): of ψ itself it is ∂F/∂ψ."""
+        turned = self._fields(field)[..., ::-1] * (self._scale * self._weight)[..., None]
+        share = (turned.reshape(self._shell.size, 1, -1) @ self._rows)[:, 0]
+        return np.asarray(np.bincount(self._nodes.ravel(), share.ravel(), self._mesh.nodes.shape[0]))
+
+    def derivative(self, x: Floats, y: Floats) -> tuple[Floats, tuple[float, float]]:
+        """Derivative of xᵀ G y by the nodes (n, 2), and by s = r²/2 at the annulus's inner and outer radius."""
+        here, there = self._fields(x), self._fields(y)
+        density = self._scale * (here[..., 0] * there[..., 1] + here[..., 1] * there[..., 0])
+        pairs = tuple((self._scale[..., None] * one[..., ::-1], other) for one, other in ((here, there), (there, here)))
+        nodes = node_derivative(
+            self._mesh, self._shell, self._rows, self._weight, shape(QUADRATURE_POINTS), pairs, density, by_rows=False
+        )
+        by_width = float(np.sum(self._weight * density)) / self._width
+        return nodes, (by_width, -by_width)
+
+    def _fields(self, field: Floats) -> Floats:
+        """(m, q, 2) what is B of ψ, of a nodal field, in the kernel's frame."""
+        return (self._rows @ field[self._nodes][..., None]).reshape(self._shell.size, -1, 2)
 
 
-def stress_derivative(
-    solution: Solution, annulus: tuple[float, float], x: Floats
-) -> tuple[Floats, tuple[float, float]]:
-    """Derivative of xᵀ G ψ (see `axial_force_gradient`) by the nodes (n, 2) and by s = r²/2 at the annulus's radii."""
-    mesh = solution.problem.mesh
-    shell = _shell(solution, annulus)
-    kernel = solution.system.kernel
-    m, q = shell.size, QUADRATURE_POINTS.shape[0]
-    rows = kernel.curl[shell].reshape(m, 2 * q, 6)
-    here, there = ((rows @ field[mesh.elements[shell]][..., None]).reshape(m, q, 2) for field in (solution.psi, x))
-    scale = _scale(annulus) * _radius(solution, shell)
-    density = scale * (here[..., 0] * there[..., 1] + here[..., 1] * there[..., 0])
-    pairs = tuple((scale[..., None] * one[..., ::-1], other) for one, other in ((here, there), (there, here)))
-    weight = kernel.weight[shell]
-    nodes = node_derivative(mesh, shell, rows, weight, shape(QUADRATURE_POINTS), pairs, density, by_rows=False)
-    s_inner, s_outer = annulus[0] ** 2 / 2, annulus[1] ** 2 / 2
-    value = float(np.sum(weight * density))
-    return nodes, (value / (s_outer - s_inner), -value / (s_outer - s_inner))
-
-
-def _shell(solution: Solution, annulus: tuple[float, float]) -> Ints:
-    """The elements within the annulus."""
-    mesh = solution.problem.mesh
-    s_inner, s_outer = annulus[0] ** 2 / 2, annulus[1] ** 2 / 2
-    corners = mesh.nodes[mesh.elements[:, :3], 0]
-    slack = 1e-9 * s_outer
-    return np.flatnonzero(np.all((corners > s_inner - slack) & (corners < s_outer + slack), axis=1))
-
-
-def _radius(solution: Solution, elements: Ints) -> Floats:
-    """(m, q) r (m) at the quadrature points."""
-    mesh = solution.problem.mesh
-    s = np.einsum("qn,mn->mq", shape(QUADRATURE_POINTS), mesh.nodes[mesh.elements[elements], 0], optimize=True)
-    return np.asarray(np.sqrt(2 * s))
-
-
-def _scale(annulus: tuple[float, float]) -> float:
-    return -2 * np.pi * VACUUM_RELUCTIVITY / (annulus[1] ** 2 / 2 - annulus[0] ** 2 / 2)
+def axial_force_gradient(solution: Solution, annulus: tuple[float, float]) -> Floats:
+    """g (n,) with  F = ½ g·ψ  and  ∂F/∂ψ = g, for the axial force F (N) on everything inside the annulus; see
+    `ForceShell`."""
+    return ForceShell(solution, annulus).gradient(solution.psi)
 
 
 def axial_force(solution: Solution, annulus: tuple[float, float]) -> float:

@@ -175,45 +175,40 @@ def line_norm(
 def reverse_norm(tubular: TubularSolution, exponent: float = EXPONENT) -> Functional:
     """The p-norm over the magnets' volume of the field against the magnetisation (A/m), where there is one."""
     solution, mesh = tubular.solution, tubular.solution.problem.mesh
-    magnets = reverse_fields(tubular)
     found = _blank(tubular)
-    regions = len(solution.problem.materials)
-    found.reluctivity, found.coercivity = np.zeros(regions), np.zeros(regions)
-    largest = max((float(reverse.max()) for _, _, reverse in magnets), default=0.0)
+    materials = solution.problem.materials
+    found.reluctivity, found.coercivity = np.zeros(len(materials)), np.zeros(len(materials))
+    magnets = reverse_fields(tubular)
+    if not magnets:
+        return found
+    elements = np.concatenate([own for _, own, _ in magnets])
+    reverse = np.concatenate([field for _, _, field in magnets])
+    largest = float(reverse.max())
     if largest <= 0:
         return found
-    weight = solution.system.kernel.weight
-    powers = [np.maximum(reverse / largest, 0.0) ** exponent for _, _, reverse in magnets]
-    volume = sum(float(weight[elements].sum()) for _, elements, _ in magnets)
-    integral = sum(
-        float(np.sum(weight[elements] * power)) for (_, elements, _), power in zip(magnets, powers, strict=True)
-    )
+    region = mesh.region[elements]
+    weight, rows = solution.system.kernel.weight[elements], solution.system.kernel.curl[elements]
+    power = np.maximum(reverse / largest, 0.0) ** exponent
+    volume, integral = float(weight.sum()), float(np.sum(weight * power))
     value = largest * (integral / volume) ** (1 / exponent)
     found.value = value
-    for (index, elements, reverse), power in zip(magnets, powers, strict=True):
-        rows = solution.system.kernel.curl[elements]
-        material = solution.problem.materials[index]
-        sign = float(np.sign(material.remanence[1]))
-        by_reverse = value / integral * power / np.where(reverse > 0, reverse, 1.0)
-        by_row = np.zeros((*reverse.shape, 2))
-        by_row[..., 0] = -sign * material.components[1] * by_reverse
-        field = np.einsum("mqkn,mn->mqk", rows, solution.psi[mesh.elements[elements]], optimize=True)
-        pull = np.einsum("mqkn,mqk->mn", rows, by_row * weight[elements][..., None], optimize=True)
-        found.by_psi += np.bincount(mesh.elements[elements].ravel(), pull.ravel(), found.by_psi.size)
-        nodes = node_derivative(
-            mesh,
-            elements,
-            rows.reshape(elements.size, -1, 6),
-            weight[elements],
-            shape(QUADRATURE_POINTS),
-            ((by_row, field),),
-            value / exponent * (power / integral - 1 / volume),
-        )
-        by_s, by_z = on_lines(tubular.grid, nodes)
-        found.s += by_s
-        found.z += by_z
-        found.coercivity[index] = sign * float(np.sum(weight[elements] * by_reverse))
-        found.reluctivity[index] = -sign * float(np.sum(weight[elements] * by_reverse * field[..., 0]))
+    sign = np.array([np.sign(material.remanence[1]) for material in materials])[region][:, None]
+    nu = np.array([material.components[1] for material in materials])[region][:, None]
+    by_reverse = value / integral * power / np.where(reverse > 0, reverse, 1.0)
+    by_row = np.zeros((*reverse.shape, 2))
+    by_row[..., 0] = -sign * nu * by_reverse
+    flat = rows.reshape(elements.size, -1, 6)
+    field = (flat @ solution.psi[mesh.elements[elements]][..., None]).reshape(by_row.shape)
+    pull = ((by_row * weight[..., None]).reshape(elements.size, 1, -1) @ flat)[:, 0]
+    found.by_psi += np.bincount(mesh.elements[elements].ravel(), pull.ravel(), found.by_psi.size)
+    density = value / exponent * (power / integral - 1 / volume)
+    nodes = node_derivative(mesh, elements, flat, weight, shape(QUADRATURE_POINTS), ((by_row, field),), density)
+    by_s, by_z = on_lines(tubular.grid, nodes)
+    found.s += by_s
+    found.z += by_z
+    change = sign * weight * by_reverse
+    found.coercivity += np.bincount(region, change.sum(axis=1), len(materials))
+    found.reluctivity -= np.bincount(region, (change * field[..., 0]).sum(axis=1), len(materials))
     return found
 
 

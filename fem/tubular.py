@@ -202,14 +202,16 @@ def reverse_fields(tubular: TubularSolution) -> list[tuple[int, Ints, Floats]]:
     """Of each magnet its region, its elements (m,) and the field against its magnetisation (A/m) at their quadrature
     points (m, q)."""
     solution = tubular.solution
+    remanences = [material.remanence[1] for material in solution.problem.materials]
+    region = solution.problem.mesh.region
+    all_magnets = np.flatnonzero(np.array(remanences)[region] != 0)
+    b_z = solution.flux_density(all_magnets)[..., 0]
     found = []
-    for index, material in enumerate(solution.problem.materials):
-        remanence = material.remanence[1]
-        if remanence == 0.0:
-            continue
-        elements = np.flatnonzero(solution.problem.mesh.region == index)
-        b_along = solution.flux_density(elements)[..., 0] * np.sign(remanence)
-        found.append((index, elements, -material.components[1] * (b_along - abs(remanence))))
+    for index in np.flatnonzero(remanences):
+        own = region[all_magnets] == index
+        nu = solution.problem.materials[index].components[1]
+        reverse = -nu * (b_z[own] * np.sign(remanences[index]) - abs(remanences[index]))
+        found.append((int(index), all_magnets[own], reverse))
     return found
 
 

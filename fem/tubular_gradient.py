@@ -13,7 +13,7 @@ import numpy as np
 
 from fluxbore.fem.adjoint import Linearisation
 from fluxbore.fem.asymptotic import rim_derivative
-from fluxbore.fem.force import axial_force_gradient, stress_derivative
+from fluxbore.fem.force import ForceShell
 from fluxbore.fem.functionals import Functional, on_lines
 from fluxbore.fem.linear import Corrected
 from fluxbore.fem.mapped import breakpoint_derivative
@@ -35,7 +35,8 @@ class TubularAdjoint:
         self.tubular = tubular
         solution = tubular.solution
         self._densities = np.column_stack([circuit.density for circuit in solution.problem.circuits])
-        self._pull = axial_force_gradient(solution, tubular.section.force_annulus)
+        self._shell = ForceShell(solution, tubular.section.force_annulus)
+        self._pull = self._shell.gradient(solution.psi)
 
     @cached_property
     def linearisation(self) -> Linearisation:
@@ -57,16 +58,12 @@ class TubularAdjoint:
         response = tubular.response
         x = self._solved((self._densities @ weights)[:, None])[:, 0]
         derivative, by_psi = self.linearisation.tangent(x, response)
-        annulus = tubular.section.force_annulus
-        of_stress, at_radii = stress_derivative(solution, annulus, x)
-        s, z = on_lines(tubular.grid, of_stress)
-        for radius, by_s in zip(annulus, at_radii, strict=True):
-            s[tubular.grid.line(radius)] += by_s
+        s, z = self._stress(x, solution.psi)
         load = self._windows.derivative(self._by_phase(weights, response))
         rim = rim_derivative(tubular.grid, tubular.section.ends, x[:, None], response[:, None])
         return Functional(
             1.5 * abs(vector),
-            axial_force_gradient(solution, annulus, x) - by_psi,
+            self._shell.gradient(x) - by_psi,
             s + (load.s - derivative.s - rim.s)[:, 0],
             z + (load.z - derivative.z - rim.z)[:, 0],
             windows=load.windows[..., 0],
@@ -78,12 +75,17 @@ class TubularAdjoint:
     def force(self) -> Functional:
         """The axial force on the mover (N)."""
         tubular = self.tubular
-        annulus = tubular.section.force_annulus
-        nodes, at_radii = stress_derivative(tubular.solution, annulus, tubular.solution.psi / 2)
-        s, z = on_lines(tubular.grid, nodes)
-        for radius, by_s in zip(annulus, at_radii, strict=True):
-            s[tubular.grid.line(radius)] += by_s
+        s, z = self._stress(tubular.solution.psi / 2, tubular.solution.psi)
         return Functional(float(self._pull @ tubular.solution.psi / 2), self._pull, s, z, adjoint=tubular.response)
+
+    def _stress(self, x: Floats, y: Floats) -> tuple[Floats, Floats]:
+        """(lines,) twice, derivatives of xᵀ G y by the grid's lines."""
+        grid = self.tubular.grid
+        nodes, at_radii = self._shell.derivative(x, y)
+        s, z = on_lines(grid, nodes)
+        for radius, by_s in zip(self.tubular.section.force_annulus, at_radii, strict=True):
+            s[grid.line(radius)] += by_s
+        return s, z
 
     def linkage(self, weights: Sequence[float]) -> Functional:
         """A sum over the phases of weight · flux linkage (Wb)."""
