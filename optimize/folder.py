@@ -5,13 +5,14 @@ from __future__ import annotations
 import contextlib
 import json
 import os
-from dataclasses import dataclass
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from types import TracebackType
 from typing import Self
 
-from fluxbore.design.errors import OutputError
+from fluxbore.design.errors import FluxboreError, OutputError
 from fluxbore.design.process import may_run
 from fluxbore.design.spec import Spec
 from fluxbore.geometry import step_files
@@ -32,12 +33,14 @@ _PARTIAL = ".partial"
 class Folder:
     """An output folder that is ours to write, until its journal is closed. Use it as a context manager.
 
-    resumed : whether the same specification was at work in it before.
+    resumed : whether the same specification was at work in it before. made : the folders that were made for it, the
+    innermost first.
     """
 
     path: Path
     resumed: bool
     journal: Journal
+    made: tuple[Path, ...] = ()
 
     def write(self, name: str, content: str | bytes) -> Path:
         """`write_atomic` of a file in this folder, or in a folder below it that is made where it is missing."""
@@ -54,7 +57,21 @@ class Folder:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        self.journal.close()
+        if not self.made or not isinstance(error, FluxboreError):
+            self.journal.close()
+            return
+        # Whatever was asked for could not even begin: without a record, nothing of it stays.
+        self.journal.discard()
+        if {entry.name for entry in self.path.iterdir()} == {MARKER}:
+            with contextlib.suppress(OSError):
+                (self.path / MARKER).unlink()
+            _remove_empty(self.made)
+
+
+def _remove_empty(folders: Iterable[Path]) -> None:
+    for folder in folders:
+        with contextlib.suppress(OSError):  # not made after all, or no longer empty
+            folder.rmdir()
 
 
 def open_folder(path: Path | str, spec: Spec, force: bool = False) -> Folder:
@@ -71,11 +88,9 @@ def open_folder(path: Path | str, spec: Spec, force: bool = False) -> Folder:
         made = [folder for folder in (path, *path.parents) if not folder.exists()]
         try:
             path.mkdir(parents=True, exist_ok=True)
-            return _take(path, spec.fingerprint(), force)
+            return replace(_take(path, spec.fingerprint(), force), made=tuple(made))
         except BaseException:
-            for folder in made:
-                with contextlib.suppress(OSError):  # not made after all, or no longer empty
-                    folder.rmdir()
+            _remove_empty(made)
             raise
     except OSError as error:
         raise OutputError(f"{path} cannot be written: {error.strerror or error}.") from error

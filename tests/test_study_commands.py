@@ -94,6 +94,24 @@ def test_a_front_is_written_and_printed(answer):
     first, last = found["points"][0], found["points"][-1]
     assert first["first"] > last["first"]
     assert first["second"] > last["second"]
+    # Run again in its folder it has the same tables, and all of its designs come out of the journal.
+    names = ("front.csv", "results.csv", "results.parquet", "journal.jsonl")
+    before = {name: Path("out", name).read_bytes() for name in names}
+    again = fluxbore.pareto("spec.toml", "out", workers=1)
+    assert again.reused == len(again.history) == len(rows("out/results.csv")) == found["evaluations"]
+    assert {name: Path("out", name).read_bytes() for name in names} == before
+
+
+def test_what_has_no_figures_scatters_by_nothing(answer, capsys):
+    """It ran and its result is not valid: 3, as of any design without figures."""
+    hasty = ("--time-limit", "1e-6")
+    status, found = answer("tolerance", "spec.toml", "-o", "some/out", *hasty)
+    assert status == 3
+    assert found["status"] == "not analysed"
+    assert "study.production cannot be analysed" in found["reasons"][0]
+    assert Path("some/out/journal.jsonl").stat().st_size > 0, "the record of why"
+    assert main(["tolerance", "spec.toml", *hasty, *RUN]) == 3
+    assert capsys.readouterr().out.startswith("study.production cannot be analysed: ")
 
 
 def test_tolerances_are_written_and_printed(answer, capsys):

@@ -90,7 +90,15 @@ def test_a_conflict_says_who_clashes_and_by_how_much(spec):
         said(lines, RING)
         == f"{RING} at most 2 mm, its own bound: found 2 mm, alone it would have to give way by 0.3 mm"
     )
-    assert "as far as the search went" in conflict_lines(spec, replace(conflict, settled=False))[0]
+    assert lines[0].startswith("These limits exclude one another; ")
+    unsettled = conflict_lines(spec, replace(conflict, settled=False))[0]
+    assert unsettled == (
+        "These limits could not be met, as far as the search went; the nearest design misses the worst by 12.5 %:"
+    )
+    alone = conflict_lines(spec, replace(conflict, clashes=conflict.clashes[:1]))[0]
+    assert alone.startswith("This limit cannot be met around the nearest design, whatever the others; ")
+    found = conflict_lines(spec, replace(conflict, clashes=conflict.clashes[:1], settled=False))[0]
+    assert found.startswith("This limit could not be met, as far as the search went; ")
 
 
 def candidate(ring: float, force: float, stray: float = 4e-4, *, held: bool = True) -> Candidate:
@@ -106,6 +114,12 @@ def test_the_price_of_rounding_is_told(spec):
     assert "force_constant 8.5 N/A -> 8.33 N/A (-2 %)" in search_text(spec, result)
     missed = replace(result, rounded=candidate(1.25e-3, 8.33, 4.3e-4, held=False))
     assert "the rounded design misses stray_field <= 0.42 mT." in search_text(spec, missed)
+    assert "3 designs by finite elements, in 3 s." in search_text(spec, result)
+    aided = replace(result, network_calls=211, algorithm="MMA, then SLSQP")
+    assert "Search by MMA, then SLSQP: 3 designs by finite elements and 211 by the magnetic network, in 3 s." in (
+        search_text(spec, aided)
+    )
+    assert search_plain(aided)["network_calls"] == 211
     plain = search_plain(missed)
     assert plain["rounded"]["feasible"] is False
     assert plain["chosen"]["objective"] == 8.5
@@ -177,6 +191,14 @@ def test_a_yield_is_told_with_its_confidence_and_its_causes(spec):
     assert f"{YOKE} 1 mm +0.05 mm / -0.02 mm, uniform: half of it would gain 6.8 points" in text
     assert f"stray_field: 0.401 mT, 0.01 mT, 0.37 mT to 0.44 mT; 100 % of the variance by {YOKE}" in text
     assert "3 cannot be made, such as: No such yoke." in text
+
+
+def test_a_limit_s_share_is_its_best_estimate(spec):
+    """Catches the share of the linear model alone where samples computed in full have moved it."""
+    found = tolerances()
+    moved = replace(found.requirements[0], checked=Interval(0.8, 0.7, 0.9), shifted=Interval(0.85, 0.84, 0.86))
+    text = tolerance_text(spec, replace(found, requirements=(moved,)))
+    assert "stray_field <= 0.42 mT: 85 % (84 to 86 % with 95 % confidence) hold it" in text
 
 
 def test_what_is_infinite_is_null_in_the_json():

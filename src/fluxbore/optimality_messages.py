@@ -52,12 +52,20 @@ def _percent(share: float) -> str:
 
 
 def conflict_lines(spec: Spec, found: Conflict) -> list[str]:
-    """Which limits exclude one another around the least infeasible design, by how much, and what would settle it."""
-    lines = [
-        f"These limits exclude one another; the nearest design misses the worst of them by {_percent(found.worst)}"
-        + ("" if found.settled else ", as far as the search went")
-        + ":"
-    ]
+    """What keeps the least infeasible design from being feasible, by how much, and what would settle it.
+
+    That limits exclude one another is said only where no small step betters the worst of them.
+    """
+    several = len(found.clashes) > 1
+    missed = _percent(found.worst)
+    if not found.settled:
+        what = "These limits could not be met" if several else "This limit could not be met"
+        first = f"{what}, as far as the search went; the nearest design misses the worst by {missed}:"
+    elif several:
+        first = f"These limits exclude one another; the nearest design misses the worst of them by {missed}:"
+    else:
+        first = f"This limit cannot be met around the nearest design, whatever the others; it is missed by {missed}:"
+    lines = [first]
     for item in found.clashes:
         unit = _measure(spec, item.subject, item.limit)
         parts = [f"found {show_subject(item.subject, item.value)}"]

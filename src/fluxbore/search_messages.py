@@ -55,6 +55,7 @@ def search_plain(result: SearchResult) -> dict[str, Any]:
         "ending": result.ending,
         "algorithm": result.algorithm,
         "evaluations": len(result.history),
+        "network_calls": result.network_calls,
         "start": candidate_plain(result.start),
         "network_start": candidate_plain(result.network_start),
         "best": candidate_plain(result.best),
@@ -89,7 +90,7 @@ def search_text(spec: Spec, result: SearchResult) -> str:
     cost = f"{result.reused} of them from the journal" if result.replayed else f"in {result.seconds:.0f} s"
     lines = [
         result.stop_reason,
-        f"Search{_algorithm(result)}: {len(result.history)} designs by {route(spec, 'fem')}, {cost}.",
+        f"Search{_algorithm(result)}: {len(result.history)} designs by {route(spec, 'fem')}{_network(result)}, {cost}.",
     ]
     lines += _failures(result)
     chosen = result.chosen
@@ -119,6 +120,10 @@ def search_text(spec: Spec, result: SearchResult) -> str:
 
 def _algorithm(result: SearchResult) -> str:
     return f" by {result.algorithm}" if result.algorithm else ""
+
+
+def _network(result: SearchResult) -> str:
+    return f" and {result.network_calls} by the magnetic network" if result.network_calls else ""
 
 
 def _rounding(spec: Spec, result: SearchResult) -> list[str]:

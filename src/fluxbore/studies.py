@@ -83,14 +83,15 @@ def pareto(
 ) -> ParetoResult:
     """Look for the front of the study's objective against ``study.pareto.against`` by finite elements.
 
-    folder : gets ``front.csv`` and the journal; the others as for `sweep`. Raises SpecError where the study asks for no
-    front.
+    folder : gets ``front.csv``, ``results.csv`` and ``results.parquet`` with every design that was evaluated, and the
+    journal; the others as for `sweep`. Raises SpecError where the study asks for no front.
     """
     spec = as_spec(spec)
     _need_search(spec, "a front")
     need(spec.study.pareto, "study.pareto", "a front")
     with workshop(spec, folder, workers, scheduler, time_limit, force) as shop:
         result = run_pareto(spec, shop.journal, shop.executor, progress)
+        _write_search(spec, shop, result.history)
         shop.write_front(result)
     return result
 

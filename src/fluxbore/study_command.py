@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Protocol
 
+from fluxbore.design.errors import DesignError
 from fluxbore.exit_status import DONE, INTERRUPTED, NOT_VALID
 from fluxbore.spec_options import path_name, read_spec, with_fidelity, with_run, with_spec
 
@@ -115,8 +116,14 @@ def _tolerance(options: argparse.Namespace) -> Answer:
     from fluxbore.tolerance_messages import tolerance_plain, tolerance_text
 
     spec = read_spec(options)
-    with Bar(options.quiet) as bar:
-        result = tolerance(spec, options.output, fidelity=options.fidelity, progress=bar.show, **_run_options(options))
+    try:
+        with Bar(options.quiet) as bar:
+            result = tolerance(
+                spec, options.output, fidelity=options.fidelity, progress=bar.show, **_run_options(options)
+            )
+    except DesignError as error:  # it was evaluated, and there is nothing that could scatter
+        plain = {"status": "not analysed", "reasons": [str(error)]}
+        return Answer(NOT_VALID, plain if options.json else str(error))
     return Answer(DONE, tolerance_plain(result) if options.json else tolerance_text(spec, result))
 
 

@@ -95,7 +95,7 @@ def tolerance_text(spec: Spec, result: ToleranceResult) -> str:
         subject = item.limit.subject
         limit = f"{subject} {item.limit.sense} {show_subject(subject, item.limit.limit)}"
         lines.append(
-            f"  {limit}: {_share(item.checked or item.simulated)} hold it, the mean is {_room(item.margin)}, "
+            f"  {limit}: {_share(item.best_estimate)} hold it, the mean is {_room(item.margin)}, "
             f"without this limit the yield would gain {_points(item.cost)}"
         )
     lines += ["", "Tolerances, the most harmful first:"]

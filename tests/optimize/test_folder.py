@@ -185,3 +185,28 @@ def test_a_file_is_replaced_whole_or_not_at_all(tmp_path):
     assert target.read_text() == "old"
     assert sorted(file.name for file in tmp_path.iterdir()) == ["report.html", "taken"]
     assert write_atomic(target, b"new").read_bytes() == b"new"
+
+
+def test_a_folder_made_for_what_cannot_begin_goes_again(tmp_path):
+    """But not with a record in it, not one that was there before, and not where the run was merely interrupted."""
+
+    def fail(error, *, record=False):
+        folder = open_folder(tmp_path / "a" / "b", SPEC)
+        if record:
+            folder.journal.put("a", "sweep", {}, failure("fem", INVALID, "Why."))
+        folder.__exit__(type(error), error, None)
+
+    fail(OutputError("No."))
+    assert list(tmp_path.iterdir()) == []
+    (tmp_path / "a").mkdir()
+    fail(OutputError("No."))
+    assert content(tmp_path) == {tmp_path / "a": None}
+    fail(KeyboardInterrupt())
+    assert (tmp_path / "a" / "b" / MARKER).exists()
+    fail(OutputError("No."))
+    assert (tmp_path / "a" / "b" / MARKER).exists(), "it was there before"
+    (tmp_path / "a" / "b" / MARKER).unlink()
+    (tmp_path / "a" / "b" / JOURNAL).unlink()
+    (tmp_path / "a" / "b").rmdir()
+    fail(OutputError("No."), record=True)
+    assert (tmp_path / "a" / "b" / JOURNAL).stat().st_size > 0
