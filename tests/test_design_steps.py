@@ -7,7 +7,7 @@ from coil_study import SPEC
 
 from fluxbore.design.spec import Spec, loads
 from fluxbore.design_result import DesignResult, searched
-from fluxbore.design_steps import search_design, with_front, with_tolerances
+from fluxbore.design_steps import every_design, search_design, with_front, with_tolerances
 from fluxbore.optimize.executor import SerialExecutor
 from fluxbore.workshop import Workshop
 
@@ -17,6 +17,11 @@ SHOP = Workshop(None, SerialExecutor())
 @pytest.fixture(scope="module")
 def plain() -> Spec:
     return loads(SPEC)
+
+
+@pytest.fixture(scope="module")
+def sought(plain) -> DesignResult:
+    return search_design(plain, SHOP, None)
 
 
 @pytest.fixture(scope="module")
@@ -44,25 +49,23 @@ def test_the_robust_search_s_start_is_the_specification_s(robust):
     assert found.search.start.values["actuator.coil_2.radius"] == spec.number("actuator.coil_2.radius")
 
 
-def test_the_production_of_the_design_that_was_found(plain):
-    found = with_tolerances(plain, search_design(plain, SHOP, None), SHOP, None)
+def test_the_production_of_the_design_that_was_found(plain, sought):
+    found = with_tolerances(plain, sought, SHOP, None)
     assert found.search is not None
     assert found.tolerance is not None
     assert found.tolerance.values["actuator.coil_2.radius"] == found.search.chosen.values["actuator.coil_2.radius"]
     assert found.tolerance.requirements[0].limit.limit == 1.5e-3
 
 
-def test_a_tolerance_that_cannot_be_analysed_is_a_warning_and_not_the_end(plain, monkeypatch):
+def test_a_tolerance_that_cannot_be_analysed_is_a_warning_and_not_the_end(plain, sought, monkeypatch):
     from fluxbore import design_steps
     from fluxbore.design.errors import DesignError
-
-    found = search_design(plain, SHOP, None)
 
     def fails(*_: object, **__: object) -> None:
         raise DesignError("No figures.")
 
     monkeypatch.setattr(design_steps, "run_tolerance", fails)
-    warned = with_tolerances(plain, found, SHOP, None)
+    warned = with_tolerances(plain, sought, SHOP, None)
     assert warned.tolerance is None
     assert warned.warnings == ("No tolerance analysis: No figures.",)
 
@@ -82,3 +85,13 @@ def test_an_interrupted_search_ends_the_run(plain, monkeypatch):
     monkeypatch.setattr(design_steps, "run_search", lambda *_: found.search)
     with pytest.raises(KeyboardInterrupt):
         search_design(plain, SHOP, None)
+
+
+def test_the_front_s_designs_are_tabled_beside_the_search_s(plain, sought):
+    """Catches a table without them, and one that has a design of both twice."""
+    found = with_front(plain, sought, SHOP, None)
+    designs = [tuple(made.values.items()) for made in every_design(found)]
+    assert designs[: len(found.history)] == [tuple(made.values.items()) for made in found.history]
+    assert {tuple(made.values.items()) for made in found.front.history} <= set(designs)
+    assert len(designs) < len(found.history) + len(found.front.history)
+    assert every_design(replace(found, front=None)) == found.history

@@ -13,7 +13,7 @@ from fluxbore.actuators import actuator_of
 from fluxbore.design.errors import FluxboreError, OutputError
 from fluxbore.design.spec import Spec
 from fluxbore.design_result import DesignResult, judged
-from fluxbore.design_steps import search_design, with_front, with_tolerances
+from fluxbore.design_steps import every_design, search_design, with_front, with_tolerances
 from fluxbore.evaluating import evaluate
 from fluxbore.optimize.evaluate import evaluate as evaluate_design
 from fluxbore.optimize.evaluation import Evaluation
@@ -125,7 +125,7 @@ def design(
             found = judged(spec, _evaluated(spec, shop.journal, shop.executor))
         found = replace(found, sweeps=tuple(sweeps))
         found = with_tolerances(spec, with_front(spec, found, shop, progress), shop, progress)
-        files = shop.write_results(spec, sweeps, found.history)
+        files = shop.write_results(spec, sweeps, every_design(found))
         files += shop.write_front(found.front) if found.front is not None else []
         files += shop.write_tolerance(found.tolerance) if found.tolerance is not None else []
         if found.search is None or found.search.chosen is not None:

@@ -7,6 +7,7 @@ from dataclasses import replace
 from fluxbore.design.errors import FluxboreError
 from fluxbore.design.spec import Spec
 from fluxbore.design_result import DesignResult, searched
+from fluxbore.optimize.outcome import Candidate
 from fluxbore.optimize.pareto import run_pareto
 from fluxbore.optimize.problem import check
 from fluxbore.optimize.progress import Report
@@ -57,6 +58,14 @@ def with_front(spec: Spec, found: DesignResult, shop: Workshop, progress: Report
     if front.ending == "interrupted":
         raise KeyboardInterrupt
     return replace(found, front=front)
+
+
+def every_design(found: DesignResult) -> tuple[Candidate, ...]:
+    """The search's designs, and those that only the front asked for."""
+    history = found.history
+    known = [dict(made.values) for made in history]
+    front = () if found.front is None else found.front.history
+    return (*history, *(made for made in front if dict(made.values) not in known))
 
 
 def with_tolerances(spec: Spec, found: DesignResult, shop: Workshop, progress: Report | None) -> DesignResult:
