@@ -15,6 +15,9 @@ from fluxbore.design.spec import Spec
 from fluxbore.geometry.assembly import Assembly
 from fluxbore.optimize.evaluation import Evaluation
 from fluxbore.optimize.outcome import Candidate, Check, SearchResult, SweepResult
+from fluxbore.optimize.pareto_result import ParetoResult
+from fluxbore.optimize.tolerance_result import RobustResult, ToleranceResult
+from fluxbore.reports.kind_words import PLAIN, KindWords
 
 Array = NDArray[np.float64]
 Triangles = NDArray[np.int_]
@@ -97,6 +100,8 @@ class ReportContent:
     checked, not_checked : sentences; what the page itself can see (residuals, the two routes) it adds.
     provenance : label -> text: versions, hashes, date, mesh, command.
     seconds : wall time of the whole run.
+    words : what the actuator's kind calls things.
+    front, tolerance, robust : what the study asked for besides a search.
     """
 
     spec: Spec
@@ -119,6 +124,10 @@ class ReportContent:
     not_checked: tuple[str, ...] = ()
     provenance: Mapping[str, str] = field(default_factory=dict)
     seconds: float | None = None
+    words: KindWords = PLAIN
+    front: ParetoResult | None = None
+    tolerance: ToleranceResult | None = None
+    robust: RobustResult | None = None
 
     @property
     def design_spec(self) -> Spec:

@@ -42,7 +42,9 @@ Window = tuple[float, float]
 _PHASES = (("U", BAD), ("V", GOOD), ("W", CHOSEN))
 
 
-def sweep_curve(spec: Spec, result: SweepResult, name: str, figure: str, maximise: bool) -> Drawing | None:
+def sweep_curve(
+    spec: Spec, result: SweepResult, name: str, figure: str, maximise: bool, route: str = "finite elements"
+) -> Drawing | None:
     """A figure over the swept key, with the computed best and the published optimum; None beyond two axes.
 
     Of two axes the last runs along the abscissa and the first gives the family of curves.
@@ -81,7 +83,7 @@ def sweep_curve(spec: Spec, result: SweepResult, name: str, figure: str, maximis
         plot.set_xlabel(_axis(key_label(spec, along.key), x_scale.unit))
         plot.set_ylabel(_axis(figure_label(figure), y_scale.unit))
         alt = f"{capital(figure_label(figure))} over {key_label(spec, along.key)}; " + "; ".join(marks)
-        caption = f"{capital(figure_label(figure))} over {key_label(spec, along.key)}, by finite elements."
+        caption = f"{capital(figure_label(figure))} over {key_label(spec, along.key)}, by {route}."
         return drawing(canvas, name, alt + ".", caption)
 
 

@@ -10,14 +10,24 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from fluxbore.design.errors import OutputError
-from fluxbore.design.magnetic_network import UPPER_BOUND
-from fluxbore.design.performance import FIGURES
 from fluxbore.optimize.folder import write_atomic
-from fluxbore.reports import curves, flux_picture, section_drawing, story, study_tables, tables
+from fluxbore.reports import (
+    curves,
+    figure_tables,
+    flux_picture,
+    front,
+    optimum,
+    section_drawing,
+    sensitivity,
+    story,
+    study_curves,
+    study_tables,
+    tables,
+    tolerances,
+)
 from fluxbore.reports.content import ReportContent
 from fluxbore.reports.svg import Drawing
-from fluxbore.reports.tables import Table
-from fluxbore.reports.wording import capital, duration, figure_label, greek, key_label, meaning, symbol
+from fluxbore.reports.wording import capital, duration, greek, key_label, symbol
 
 if TYPE_CHECKING:
     from markupsafe import Markup
@@ -70,7 +80,6 @@ def _context(content: ReportContent) -> Mapping[str, Any]:
     objective = spec.study.objective
     search = content.search
     warnings = design.warnings if design is not None else ()
-    comparison = tables.comparison(content)
     return {
         "title": story.title(content),
         "is_study": content.is_study,
@@ -94,17 +103,21 @@ def _context(content: ReportContent) -> Mapping[str, Any]:
             curves.search_path(spec, search, content.one_at_a_time) if search else None,
         ),
         "history": study_tables.history(content, search, objective) if search and objective else None,
-        "effort": story.effort(search) if search else "",
+        "effort": story.effort(search, content.words) if search else "",
+        "optimum": _optimum(content),
+        "sensitivities": sensitivity.sensitivities(content),
+        "front": _front(content),
+        "tolerance": _tolerance(content),
+        "robust": _robust(content),
         "failures": story.failures(search) if search else "",
         "field": _field(content),
         "force_figures": _present(*_force(content)) if sound else (),
         "force_text": [text for text in (story.routes(sound), story.ripple(sound)) if text] if sound else [],
         "positions": tables.positions(sound) if sound else None,
-        "comparison": comparison,
-        "meanings": _meanings(comparison),
-        "upper_bound": "The network's force constant is equation (2) of Nakata and Noda (2023). " + greek(UPPER_BOUND)
-        if content.design_network is not None
-        else "",
+        "comparison": figure_tables.comparison(content),
+        "meanings": figure_tables.meanings(content),
+        "upper_bound": greek(content.words.network_note) if content.design_network is not None else "",
+        "words": content.words,
         "slots": curves.slot_curve(content.slots) if content.slots is not None else None,
         "slots_note": content.slots.note if content.slots is not None else "",
         "parts": tables.parts(content.parts),
@@ -137,12 +150,61 @@ def _sweeps(content: ReportContent) -> list[dict[str, Any]]:
     return [
         {
             "name": result.sweep.name,
-            "figure": curves.sweep_curve(content.spec, result, f"sweep-{i}", figure, maximise),
+            "figure": curves.sweep_curve(content.spec, result, f"sweep-{i}", figure, maximise, content.words.route),
             "finding": story.sweep_finding(content.spec, result, figure, maximise),
             "failed": tables.failed_rows(content, result),
         }
         for i, result in enumerate(content.sweeps)
     ]
+
+
+def _optimum(content: ReportContent) -> dict[str, Any] | None:
+    """Why the search stopped where it did: the first-order conditions and their prices, or the limits in conflict."""
+    search, objective = content.search, content.spec.study.objective
+    if search is None:
+        return None
+    conflict = optimum.conflict(content.spec, search.conflict) if search.conflict is not None else None
+    return {
+        "residual": optimum.residual(search, objective),
+        "prices": optimum.prices(content.spec, search, objective),
+        "conflict_text": conflict[0] if conflict else "",
+        "conflict": conflict[1] if conflict else None,
+    }
+
+
+def _front(content: ReportContent) -> dict[str, Any] | None:
+    if content.front is None:
+        return None
+    chosen = content.search.chosen if content.search is not None else None
+    return {
+        "sentences": front.sentences(content.front, content.words),
+        "figure": study_curves.front_curve(content.front, chosen),
+        "table": front.table(content.spec, content.front) if content.front.points else None,
+    }
+
+
+def _tolerance(content: ReportContent) -> dict[str, Any] | None:
+    found, spec = content.tolerance, content.design_spec
+    if found is None:
+        return None
+    sound = found.nominal.ok
+    return {
+        "sentences": tolerances.sentences(spec, found),
+        "figure": study_curves.tolerance_bars(spec, found) if sound else None,
+        "requirements": tolerances.requirements(spec, found) if sound else None,
+        "tolerances": tolerances.tolerances(spec, found) if sound else None,
+        "spreads": tolerances.spreads(spec, found) if sound else None,
+        "confidence": tolerances.confidence(),
+    }
+
+
+def _robust(content: ReportContent) -> dict[str, Any] | None:
+    if content.robust is None:
+        return None
+    return {
+        "sentences": tolerances.robust_sentences(content.spec, content.robust),
+        "rounds": tolerances.rounds(content.spec, content.robust),
+    }
 
 
 def _field(content: ReportContent) -> dict[str, Any] | None:
@@ -174,23 +236,7 @@ def _symbols(content: ReportContent) -> list[tuple[str, str]]:
     spec = content.spec
     own = {symbol(spec, key.name): key.doc for key in spec.kind.keys if key.name in spec.values}
     plain = [(sign, doc) for sign, doc in own.items() if sign not in ("", "z") and not re.search(r"[(/]", sign)]
-    field = [
-        (
-            "z",
-            "position: from the mid-plane of the first U coil at the cap end to the cap-side face of the magnet array",
-        ),
-        ("|B|", "magnitude of the flux density"),
-        ("ψ", "flux function r·A; its level lines are field lines"),
-        ("g_ac", "radial gap between magnets and winding"),
-    ]
-    return [*field, *plain]
-
-
-def _meanings(comparison: Table | None) -> list[tuple[str, str]]:
-    """The figures of the comparison and what each of them is."""
-    shown = {row[0].text for row in comparison.rows} if comparison is not None else set()
-    labels = {name: capital(figure_label(name)) for name in FIGURES}
-    return [(label, meaning(name)) for name, label in labels.items() if label in shown]
+    return [*content.words.symbols, *plain]
 
 
 def _present(*drawings: Drawing | None) -> tuple[Drawing, ...]:

@@ -5,6 +5,9 @@ from __future__ import annotations
 from fluxbore.geometry.assembly import Assembly
 from fluxbore.reports.svg import Drawing, drawing, new_figure, style
 
+TALLEST = 0.6
+"""Height of the drawing, of its width."""
+
 EDGE = "#26323c"
 """The outline of a part; its face has the part's own colour in every theme."""
 
@@ -17,7 +20,10 @@ def section(assembly: Assembly, name: str = "section", width: float = 1000.0) ->
     with style():
         from matplotlib.patches import Patch, Polygon
 
-        canvas = new_figure(width, (width - 50) * (2.24 * reach) / (1.06 * (high - low)) + (75 if width > 800 else 100))
+        wide = width > 800
+        height = (width - 50) * (2.24 * reach) / (1.06 * (high - low))
+        # What is broader than long would be taller than the page.
+        canvas = new_figure(width, min(height, TALLEST * width) + (75 if wide else 100))
         plot = canvas.subplots()
         roles: dict[str, tuple[float, float, float]] = {}
         for part in assembly.parts:
@@ -34,9 +40,9 @@ def section(assembly: Assembly, name: str = "section", width: float = 1000.0) ->
         plot.set_xlabel("z (mm)")
         plot.set_ylabel("r (mm)")
         keys = [Patch(facecolor=colour, edgecolor=EDGE, linewidth=0.5, label=role) for role, colour in roles.items()]
-        canvas.legend(
-            handles=keys, loc="outside upper left", ncols=min(len(keys), 9 if width > 800 else 4), handlelength=1.2
-        )
+        canvas.legend(handles=keys, loc="outside upper left", ncols=min(len(keys), 9 if wide else 4), handlelength=1.2)
         alt = f"Longitudinal section of {assembly.name}: {', '.join(roles)}."
-        caption = f"Longitudinal section, mover at z = {assembly.position * 1e3:.4g} mm."
-        return drawing(canvas, name, alt, caption, wide=width > 800)
+        mover = any(part.group == "mover" for part in assembly.parts)
+        place = f", mover at z = {assembly.position * 1e3:.4g} mm" if mover else ""
+        caption = f"Longitudinal section{place}."
+        return drawing(canvas, name, alt, caption, wide=wide)

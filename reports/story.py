@@ -11,8 +11,10 @@ from fluxbore.design.study import Constraint, Variable
 from fluxbore.optimize.evaluation import Evaluation
 from fluxbore.optimize.outcome import Candidate, SearchResult, SweepResult
 from fluxbore.reports.content import ReportContent
+from fluxbore.reports.kind_words import PLAIN, KindWords
 from fluxbore.reports.tables import Cell
 from fluxbore.reports.wording import (
+    capital,
     change,
     duration,
     figure_label,
@@ -66,7 +68,7 @@ def reached(content: ReportContent) -> Cell:
     """The outcome in one sentence, with its tone."""
     design = content.design
     if design is None:
-        return Cell("No evaluation by finite elements is part of this report.", "muted")
+        return Cell(f"No evaluation by {content.words.route} is part of this report.", "muted")
     if not design.ok:
         which = "chosen" if content.is_study else "specified"
         return Cell(f"The {which} design has no figures ({design.status}): {' '.join(design.reasons)}", "bad")
@@ -212,17 +214,20 @@ def _nearest_step(content: ReportContent) -> str:
     )
 
 
-def effort(search: SearchResult) -> str:
-    """``33 designs by finite elements in 41 s.``; seconds say nothing of designs that an earlier run computed.
+def effort(search: SearchResult, words: KindWords = PLAIN) -> str:
+    """``33 designs by finite elements in 41 s, by MMA.``; seconds say nothing of designs that an earlier run computed.
 
     A single design in the journal need not be an earlier run's: a sweep of this one may have passed through the start.
     """
     count, reused = len(search.history), search.reused
-    designs = f"{count} {'design' if count == 1 else 'designs'} by finite elements"
+    designs = f"{count} {'design' if count == 1 else 'designs'} by {words.route}"
+    ran = f" Algorithm: {search.algorithm}." if search.algorithm else ""
+    called = search.network_calls
+    ran += f" {capital(words.network)} was called {called} times besides." if called and words.network else ""
     if search.replayed:
-        return f"{designs}, {'all' if reused >= count else reused} of them from an earlier run."
+        return f"{designs}, {'all' if reused >= count else reused} of them from an earlier run.{ran}"
     known = f", {reused} of them already in the journal" if reused else ""
-    return f"{designs} in {duration(search.seconds)}{known}."
+    return f"{designs} in {duration(search.seconds)}{known}.{ran}"
 
 
 def failures(search: SearchResult) -> str:
@@ -309,7 +314,7 @@ def seen(content: ReportContent) -> tuple[str, ...]:
     network = content.design_network
     if design is not None and network is not None:
         over = change(design.performance.force_constant, network.performance.force_constant)
-        if over:
+        if over and content.words.network_note:
             sense = "an upper bound, as expected" if over.startswith("+") else "not the upper bound that was expected"
             found.append(f"Equation (2) of the network lies {over} against the finite elements: {sense}.")
     found += _masses(content)
@@ -323,13 +328,16 @@ def _masses(content: ReportContent) -> list[str]:
     mover = sum(row.mass * row.count for row in content.parts if row.group == "mover")
     whole = sum(row.mass * row.count for row in content.parts)
     pairs = (("mover", mover, design.performance.moving_mass), ("all parts", whole, design.performance.total_mass))
-    return [
-        f"The mass of {name} in the parts list, {listed * 1e3:.2f} g, "
-        + ("equals" if abs(listed - figure) <= 1e-6 * figure else "differs from")
-        + f" the model’s {figure * 1e3:.2f} g."
-        for name, listed, figure in pairs
-        if figure is not None
-    ]
+    found = []
+    for name, listed, figure in pairs:
+        if figure is not None:
+            scale = figure_scale("total_mass", [listed])
+            word = "equals" if abs(listed - figure) <= 1e-6 * figure else "differs from"
+            found.append(
+                f"The mass of {name} in the parts list, {scale.quantity(listed)}, {word} the model’s "
+                f"{scale.quantity(figure)}."
+            )
+    return found
 
 
 def _range(spec: Spec, variable: Variable) -> str:

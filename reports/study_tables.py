@@ -27,16 +27,6 @@ from fluxbore.reports.wording import (
     symbol,
 )
 
-HEADLINES = (
-    "force_constant",
-    "motor_constant",
-    "moving_mass",
-    "stray_field",
-    "pneumatic_force_advance",
-    "outer_diameter",
-)
-"""Figures of the first screen, after the objective."""
-
 AT_BOUND = 1e-3
 """Share of a variable's range within which it counts as standing at its bound."""
 
@@ -70,7 +60,7 @@ def tiles(content: ReportContent) -> tuple[Tile, ...]:
     if design is None or not design.ok:
         return ()
     objective = content.spec.study.objective
-    names = dict.fromkeys([*([objective.figure] if objective else []), *HEADLINES])
+    names = dict.fromkeys([*([objective.figure] if objective else []), *content.words.headlines])
     found = []
     for name in names:
         value = getattr(design.performance, name)
@@ -246,7 +236,7 @@ def _standing(content: ReportContent, item: Candidate) -> Cell:
         return Cell(f"✗ breaks {', '.join(broken)}", "bad")
     unknown = _unknown(content, item)
     if unknown:
-        route = "the network" if item.evaluation.fidelity == "network" else "the finite elements"
+        route = "the network" if item.evaluation.fidelity == "network" else content.words.route
         return Cell(f"{listing(unknown)} not known to {route}", "muted")
     active = [subject_label(content.spec, check.limit.subject) for check in item.checks if check.active]
     if item.evaluation.warnings:

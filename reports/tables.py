@@ -5,21 +5,21 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from fluxbore.design.performance import FIGURES
+from fluxbore.design.performance import HEAVY
 from fluxbore.optimize.evaluation import Evaluation
 from fluxbore.optimize.outcome import SweepResult
 from fluxbore.reports.content import PartRow, ReportContent
 from fluxbore.reports.wording import (
-    DASH,
     Scale,
     capital,
     change,
-    figure_label,
-    figure_scale,
     key_scale,
     plain,
     significant,
 )
+
+LARGE = 1e-3
+"""m^3, from which volumes are given in litres."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,7 +32,11 @@ class Cell:
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """head : column titles. rows : the first cell of each is its header. foot : rows of sums."""
+    """head : column titles. rows : the first cell of each is its header. foot : rows of sums.
+
+    sections : number of the first row under a heading, and the heading. signs : whether the texts are sentences with
+    symbols such as τ_f, whose subscripts the page sets.
+    """
 
     caption: str
     head: tuple[str, ...]
@@ -40,38 +44,16 @@ class Table:
     foot: tuple[tuple[Cell, ...], ...] = ()
     words: frozenset[int] = frozenset()
     """Columns of words; all others but the first are numbers and stand flush right."""
+    sections: tuple[tuple[int, str], ...] = ()
+    signs: bool = False
 
-
-def comparison(content: ReportContent) -> Table | None:
-    """Every figure of the design: start and chosen by finite elements, the chosen by the network."""
-    design, network = content.design, content.design_network
-    if design is None and network is None:
-        return None
-    columns: list[tuple[str, Evaluation | None]] = []
-    if content.is_study and content.start is not None:
-        columns.append(("Start, FEM", content.start))
-    word = "Chosen, " if content.is_study else ""
-    columns += [(f"{word}FEM", design), (f"{word}network", network)]
-    present = [(title, item) for title, item in columns if item is not None]
-    rows = []
-    for name in FIGURES:
-        values = [getattr(item.performance, name) for _, item in present]
-        if all(value is None for value in values):
-            continue
-        scale = figure_scale(name, values)
-        cells = [
-            Cell(capital(figure_label(name))),
-            Cell(scale.unit or DASH, "muted"),
-            *(Cell(scale.number(v)) for v in values),
-        ]
-        if design is not None and network is not None:
-            fine, coarse = getattr(design.performance, name), getattr(network.performance, name)
-            cells.append(Cell(change(fine, coarse) or DASH, "muted"))
-        rows.append(tuple(cells))
-    head = ["Figure", "Unit", *(title for title, _ in present)]
-    if design is not None and network is not None:
-        head.append("Network against FEM")
-    return Table("Every figure by both routes", tuple(head), tuple(rows), words=frozenset({1})) if rows else None
+    @property
+    def bodies(self) -> tuple[tuple[str, tuple[tuple[Cell, ...], ...]], ...]:
+        """The rows under each heading; a table without headings is one body under none."""
+        if not self.sections:
+            return (("", self.rows),)
+        ends = [*(start for start, _ in self.sections[1:]), len(self.rows)]
+        return tuple((title, self.rows[start:end]) for (start, title), end in zip(self.sections, ends, strict=True))
 
 
 def positions(design: Evaluation) -> Table | None:
@@ -124,6 +106,13 @@ def parts(rows: Sequence[PartRow]) -> Table | None:
     """The parts list with the masses of mover, stator and all."""
     if not rows:
         return None
+    weight, space = ("kg", 1.0) if max(row.mass for row in rows) >= HEAVY else ("g", 1e-3), ("mm³", 1e-9)
+    if max(row.volume for row in rows) >= LARGE:
+        space = ("dm³", 1e-3)
+
+    def mass(value: float) -> str:
+        return f"{value / weight[1]:.2f}"
+
     lines = tuple(
         (
             Cell(row.name),
@@ -131,16 +120,21 @@ def parts(rows: Sequence[PartRow]) -> Table | None:
             Cell(row.material),
             Cell(row.size),
             Cell(str(row.count)),
-            Cell(f"{row.volume * 1e9:,.0f}".replace(",", "\u202f")),
-            Cell(_grams(row.mass)),
-            Cell(_grams(row.mass * row.count)),
+            Cell(f"{row.volume / space[1]:,.0f}".replace(",", "\u202f")),
+            Cell(mass(row.mass)),
+            Cell(mass(row.mass * row.count)),
         )
         for row in rows
     )
-    head = ("Part", "Group", "Material", "Size", "Pieces", "Volume of one (mm³)", "Mass of one (g)", "Mass (g)")
+    titles = (f"Volume of one ({space[0]})", f"Mass of one ({weight[0]})", f"Mass ({weight[0]})")
     groups = [*dict.fromkeys(row.group for row in rows)]
-    foot = [_sum(capital(group), [row for row in rows if row.group == group]) for group in groups]
-    foot.append(_sum("All parts", rows))
+    sums = [(capital(group), [row for row in rows if row.group == group]) for group in groups]
+    foot = []
+    for title, members in [*(sums if len(sums) > 1 else []), ("All parts", rows)]:
+        blank, count = Cell(""), sum(row.count for row in members)
+        whole = Cell(mass(sum(row.mass * row.count for row in members)), "strong")
+        foot.append((Cell(title), blank, blank, blank, Cell(str(count)), blank, blank, whole))
+    head = ("Part", "Group", "Material", "Size", "Pieces", *titles)
     return Table("Parts and masses", head, lines, tuple(foot), frozenset({1, 2, 3}))
 
 
@@ -162,13 +156,3 @@ def details(evaluations: Iterable[tuple[str, Evaluation | None]]) -> Table | Non
 def titled(label: str, scale: Scale) -> str:
     """A column's title with its unit."""
     return f"{capital(label)} ({scale.unit})" if scale.unit else capital(label)
-
-
-def _grams(mass: float) -> str:
-    return f"{mass * 1e3:.2f}"
-
-
-def _sum(title: str, rows: Sequence[PartRow]) -> tuple[Cell, ...]:
-    count, mass = sum(row.count for row in rows), sum(row.mass * row.count for row in rows)
-    blank = Cell("")
-    return Cell(title), blank, blank, blank, Cell(str(count)), blank, blank, Cell(_grams(mass), "strong")

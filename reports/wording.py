@@ -7,7 +7,8 @@ import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from fluxbore.design.performance import FIGURES
+from fluxbore.design.performance import FIGURES, HEAVY
+from fluxbore.design.rates import Measure, measure_of_figure, measure_of_key
 from fluxbore.design.spec import Spec
 from fluxbore.design.units import DIMENSIONS
 from fluxbore.optimize.outcome import Limit
@@ -82,7 +83,7 @@ def scale(dimension: str, values: Iterable[float | None], digits: int = DIGITS) 
     if dimension == "fraction":
         return Scale("%", 0.01, decimals=2)
     if dimension == "count":
-        return Scale("", 1.0, decimals=0 if float(largest).is_integer() else 1)
+        return Scale("", 1.0, decimals=0 if all(size.is_integer() for size in sizes) else _decimals(smallest, digits))
     if dimension == "power":
         return Scale("W", 1.0, decimals=_decimals(smallest, digits))
     table = DIMENSIONS[dimension]
@@ -91,7 +92,7 @@ def scale(dimension: str, values: Iterable[float | None], digits: int = DIGITS) 
         name = "mT"
     elif dimension == "electric loading" and largest >= 1e3:
         name = "kA/m"
-    elif dimension == "mass" and largest >= 10.0:
+    elif dimension == "mass" and largest >= HEAVY:
         name = "kg"
     unit = table.units[name]
     size = abs((smallest - unit.offset) / unit.factor)
@@ -121,6 +122,28 @@ def figure_scale(name: str, values: Iterable[float | None]) -> Scale:
 def subject_scale(spec: Spec, subject: str, values: Iterable[float | None]) -> Scale:
     """The scale of what a limit is about: a figure's name or a dotted key."""
     return figure_scale(subject, values) if subject in FIGURES else key_scale(spec, subject, values)
+
+
+def subject_measure(spec: Spec, subject: str, size: float = 1.0) -> Measure:
+    """The unit for differences of a figure of this size (SI), or of a dotted key."""
+    return measure_of_figure(subject, size) if subject in FIGURES else measure_of_key(spec.kind.known(subject))
+
+
+def unit_sign(unit: Measure) -> str:
+    """The unit as the page writes it; empty for plain numbers."""
+    return _UNIT_SIGNS.get(unit.unit, unit.unit)
+
+
+def difference(unit: Measure, value: float, digits: int = 3, *, signed: bool = False) -> str:
+    """A difference given in SI, ``+0.35 N/A``."""
+    shown = significant(value / unit.factor, digits)
+    sign = "+" if signed and value > 0 else ""
+    return f"{sign}{shown}\u00a0{unit_sign(unit)}" if unit.unit else f"{sign}{shown}"
+
+
+def percent(share: float, digits: int = 3) -> str:
+    """``79.6 %``."""
+    return f"{significant(100 * share, digits)}\u00a0%"
 
 
 def figure_label(name: str) -> str:

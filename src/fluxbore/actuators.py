@@ -11,6 +11,8 @@ from fluxbore.design.spec import Spec
 from fluxbore.fem import femm_coils
 from fluxbore.geometry import coils
 from fluxbore.geometry.assembly import Assembly
+from fluxbore.reports import kind_words
+from fluxbore.reports.kind_words import PLAIN, KindWords
 
 if TYPE_CHECKING:
     from fluxbore.fem.femm_model import FemmModel
@@ -21,21 +23,26 @@ if TYPE_CHECKING:
 class Actuator:
     """The verbs of one kind of actuator.
 
-    assembly : its parts where they stand in the middle of the stroke. flux_map : its field at no current, for a
-    picture. slots : the slotted-slotless comparison. femm_model : its cross-section as a FEMM model. What a kind does
-    not have is None.
+    assembly : its parts where they stand in the middle of the stroke. words : what its report calls things.
+    flux_map : its field at no current, for a picture. slots : the slotted-slotless comparison. femm_model : its
+    cross-section as a FEMM model. What a kind does not have is None.
     """
 
     assembly: Callable[[Spec], Assembly]
+    words: KindWords = PLAIN
     flux_map: Callable[[Spec], FluxMap | None] | None = None
     slots: Callable[[Spec], SlotComparison | None] | None = None
     femm_model: Callable[[Spec], FemmModel] | None = None
 
 
 ACTUATORS: dict[str, Actuator] = {
-    "coils": Actuator(coils.assembly, femm_model=femm_coils.femm_model),
+    "coils": Actuator(coils.assembly, kind_words.COILS, femm_model=femm_coils.femm_model),
     "hybrid": Actuator(
-        hybrid_views.assembly, hybrid_views.flux_map, hybrid_views.slot_comparison, hybrid_views.femm_model
+        hybrid_views.assembly,
+        kind_words.HYBRID,
+        hybrid_views.flux_map,
+        hybrid_views.slot_comparison,
+        hybrid_views.femm_model,
     ),
 }
 """Every kind of actuator by its name in the specification."""

@@ -19,18 +19,6 @@ from fluxbore.optimize.evaluation import Evaluation
 if TYPE_CHECKING:
     from fluxbore.reports.content import PartRow, Picture
 
-NOT_CHECKED = (
-    "Heat: the continuous current and the winding's temperature under load.",
-    "Strength: the cylinder's hoop stress and dilation under pressure, the shaft's buckling.",
-    "The motor at current: force beyond the linear range, demagnetisation by the winding's own field.",
-    "Losses besides the copper's: eddy currents in the conductive cylinder, hysteresis in yoke and rings.",
-    "Friction, wear and air leakage of the seal fins.",
-    "Tolerances of manufacture: every dimension is taken as drawn.",
-    "How the parts are held together: fastening of magnets, pistons, yoke and caps is not drawn.",
-    "Anything that is not rotationally symmetric: lead wires, eccentricity, ports in the field.",
-)
-"""What this version of the program does not look at; the report says so."""
-
 
 def picture(parts: Assembly) -> Picture:
     """The assembly with its stator cut open, rendered; without graphics libraries the reason why not."""
@@ -69,17 +57,18 @@ def _size(row: PartMass) -> str:
     return f"\N{LATIN CAPITAL LETTER O WITH STROKE}{2e3 * max(radii):.5g}{bore} \N{MULTIPLICATION SIGN} {length:.5g} mm"
 
 
-def checked(parts: Assembly) -> tuple[str, ...]:
-    """What was looked at and held beyond what the page sees by itself, in sentences with the figures."""
+def checked(parts: Assembly, squeeze: str = "") -> tuple[str, ...]:
+    """What was looked at and held beyond what the page sees by itself, in sentences with the figures.
+
+    squeeze : what overlaps by design, in words.
+    """
     found = interferences(parts)
     designed = [item for item in found if item.designed]
     sentences = []
     if all(item.designed for item in found):
-        squeeze = sum(item.volume for item in designed) * 1e9
-        sentences.append(
-            f"Interference of all {len(parts.parts)} parts in their section: none but the designed squeeze of the "
-            f"seal fins against the bore, {squeeze:.3g} mm³ in all."
-        )
+        volume = sum(item.volume for item in designed) * 1e9
+        but = f"none but {squeeze or 'what is designed'}, {volume:.3g} mm³ in all" if designed else "none"
+        sentences.append(f"Interference of all {len(parts.parts)} parts in their section: {but}.")
     else:
         names = "; ".join(f"{item.first} and {item.second}" for item in found if not item.designed)
         sentences.append(f"Interference: {names} overlap.")

@@ -11,6 +11,8 @@ from fluxbore.design_result import DesignResult
 from fluxbore.optimize.evaluate import evaluate as evaluate_design
 from fluxbore.optimize.outcome import Candidate
 
+AS_DRAWN = "Tolerances of manufacture: every dimension is taken as drawn; the study has no production."
+
 
 def write_report_file(
     spec: Spec,
@@ -35,8 +37,8 @@ def write_report_file(
         chosen_spec=final if studied else None,
         start=start,
         chosen=findings.evaluation if studied else None,
-        start_network=evaluate_design(spec, "network"),
-        chosen_network=evaluate_design(final, "network") if studied else None,
+        start_network=evaluate_design(spec, "network") if views.words.network else None,
+        chosen_network=evaluate_design(final, "network") if studied and views.words.network else None,
         search=findings.search,
         sweeps=findings.sweeps,
         one_at_a_time=separate,
@@ -47,9 +49,18 @@ def write_report_file(
         parts=gather.part_rows(final, parts),
         assembly=parts,
         picture=gather.picture(parts) if picture else Picture(None, "No picture was asked for."),
-        checked=gather.checked(parts),
-        not_checked=(*gather.NOT_CHECKED, *findings.warnings),
+        checked=gather.checked(parts, views.words.squeeze),
+        not_checked=(*views.words.not_checked, *_untold(findings), *findings.warnings),
         provenance=gather.provenance(spec, findings.evaluation, command),
         seconds=seconds,
+        words=views.words,
+        front=findings.front,
+        tolerance=findings.tolerance,
+        robust=findings.robust,
     )
     return write_report(content, path)
+
+
+def _untold(findings: DesignResult) -> tuple[str, ...]:
+    """What a study with more in it would have looked at."""
+    return () if findings.tolerance is not None else (AS_DRAWN,)

@@ -15,6 +15,7 @@ from fluxbore.geometry.assembly import Assembly, Part, rectangle
 from fluxbore.optimize.evaluation import NOT_CONVERGED, OK, Evaluation, PositionResult, failure
 from fluxbore.optimize.outcome import Candidate, Check, Limit, SearchResult, SweepResult, SweepRow
 from fluxbore.reports.content import FluxMap, PartRow, Picture, ReportContent, SlotComparison
+from fluxbore.reports.kind_words import HYBRID
 
 RING, YOKE = "actuator.mover.ring_width", "actuator.back_yoke.thickness"
 PAPER = "Nakata and Noda 2023, Fig. 6"
@@ -303,6 +304,7 @@ def a_content(name: str = "iPEHLA prototype") -> ReportContent:
             "Command": "fluxbore design examples/ipehla.toml -o out",
         },
         seconds=73.2,
+        words=HYBRID,
     )
 
 

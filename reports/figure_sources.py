@@ -1,0 +1,102 @@
+"""Where the figures that follow in closed form come from: formula, source, and which given values they rest on.
+
+The ranges of validity stand in the modules of `fluxbore.design` and in docs/constraints.md.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from fluxbore.design.spec import Spec
+from fluxbore.reports.wording import key_label, key_scale
+
+
+@dataclass(frozen=True, slots=True)
+class Source:
+    """formula : in words or symbols. work : author and year; empty where it is a definition.
+
+    rests_on : dotted keys whose values, where nobody gave them, are assumptions. assumed : what else is one.
+    """
+
+    formula: str
+    work: str = ""
+    rests_on: tuple[str, ...] = ()
+    assumed: str = ""
+
+
+_NETWORK = "Nakata and Noda 2023"
+_LAME = "Lamé; Timoshenko and Goodier, Theory of Elasticity § 28"
+_SEAL = tuple(f"actuator.seal.{name}" for name in ("static_coefficient", "coulomb_coefficient"))
+_HEAT = ("actuator.back_yoke.emissivity", "actuator.winding.insulation_conductivity")
+_COOLING = "Mellor et al. 1991; Hashin and Shtrikman 1962; Churchill and Chu 1975"
+_IRON = "coefficient of hysteresis, from handbooks"
+
+SOURCES: dict[str, Source] = {
+    "force_constant": Source("FEM: Maxwell's stress; network: equation (2)", _NETWORK),
+    "force_constant_linkage": Source("3/2 (π/τ) λ_1"),
+    "motor_constant": Source("K/√(3/2 R)"),
+    "pneumatic_force_advance": Source("p π d²/4", "", ("actuator.cylinder.catalogue_bore",)),
+    "pneumatic_force_retract": Source("p π (d² − D_s²)/4", "", ("actuator.cylinder.catalogue_bore",)),
+    "saturation_ratio": Source("peak force/(K I)"),
+    "peak_thrust": Source("pneumatic and electromagnetic force"),
+    "electric_loading": Source("K_sp of equation (2)", _NETWORK),
+    "back_emf": Source("2/3 K v"),
+    "phase_inductance": Source("FEM: dλ/dI; network: current sheet beneath an ideal yoke", "after Bianchi et al. 2003"),
+    "voltage_demand": Source("√((R I + E)² + (π v L I/τ)²)", "Hendershot and Miller 2010"),
+    "voltage_margin": Source(
+        "U_dc/√3 less the demand", "van der Broeck et al. 1988", ("operating_point.supply_voltage",)
+    ),
+    "no_load_speed": Source("E = U_dc/√3", "van der Broeck et al. 1988", ("operating_point.supply_voltage",)),
+    "speed_limit": Source("demand = U_dc/√3", "van der Broeck et al. 1988", ("operating_point.supply_voltage",)),
+    "demagnetisation_load": Source("‖H_reverse‖₈/H_cJ over the magnets' volume"),
+    "copper_loss": Source("3/2 I² R"),
+    "iron_loss": Source("k_h f Bⁿ and eddy currents of the solid yoke", "Steinmetz 1892", (), _IRON),
+    "eddy_loss": Source("σ v² ∫B_r² dV over the cylinder's wall", "Saslow 1992"),
+    "drag_force": Source("the two losses over v", "Saslow 1992; Steinmetz 1892", (), _IRON),
+    "winding_temperature": Source("thermal network: winding, yoke, tube, caps, still air", _COOLING, _HEAT),
+    "continuous_current": Source("I at the winding's limit of temperature", _COOLING, _HEAT),
+    "continuous_thrust": Source("K times the continuous current", _COOLING, _HEAT),
+    "hoop_stress": Source("p (b² + a²)/(b² − a²)", _LAME),
+    "cylinder_safety": Source("yield stress over von Mises' stress at the bore", _LAME),
+    "bore_dilation": Source("u(a) of the thick-walled tube", _LAME),
+    "bore_clearance": Source("(D_c' − D_m)/2 + u(a)", _LAME),
+    "shaft_stress": Source("peak thrust over the section"),
+    "shaft_safety": Source("yield stress over shaft stress"),
+    "buckling_force": Source(
+        "π² E I/(K L)², or Johnson's parabola", "Euler; Johnson; Shigley", ("actuator.shaft.ends",)
+    ),
+    "buckling_safety": Source("buckling force over peak thrust", "Euler; Johnson; Shigley", ("actuator.shaft.ends",)),
+    "seal_friction": Source("equation (6) with (4) and (5)", f"{_NETWORK}, Table IV", _SEAL),
+    "fill_factor": Source("copper over the window's section"),
+    "winding_layers": Source("turns × wire over the coil's width", "", ("actuator.winding.insulated_diameter",)),
+    "winding_room": Source("height less the layers", "", ("actuator.winding.insulated_diameter",)),
+    "stored_energy": Source("½ ∫J·A dV of rotationally symmetric coils"),
+    "quench_load": Source("|J|/J_c + B/B_c", "Alotto et al. 1996, TEAM problem 22"),
+    "merit": Source("(B_stray/B_norm)² + |E − E_ref|/E_ref", "Alotto et al. 1996, TEAM problem 22"),
+}
+"""By the figure's name; what is not here is a length, a mass or a value read from the field."""
+
+
+def source_text(name: str) -> str:
+    """Formula and work; empty for a figure that is read off."""
+    found = SOURCES.get(name)
+    return "" if found is None else f"{found.formula} ({found.work})" if found.work else found.formula
+
+
+def assumptions(spec: Spec, name: str) -> str:
+    """What the figure rests on that is assumed: marked so in the specification, taken by default, or in a material."""
+    found = SOURCES.get(name)
+    if found is None:
+        return ""
+    marked = {note.key for note in spec.notes if note.status == "assumed"}
+    parts = [
+        f"{key_label(spec, key)} {_value(spec, key)}"
+        for key in found.rests_on
+        if key in spec.values and (key in marked or key not in spec.given)
+    ]
+    return "; ".join([*parts, *([found.assumed] if found.assumed else [])])
+
+
+def _value(spec: Spec, key: str) -> str:
+    value = spec.values[key]
+    return str(value) if isinstance(value, str) else key_scale(spec, key, [float(value)]).quantity(float(value))
