@@ -143,3 +143,17 @@ def edge(design, fidelity="fem", gradient=()):
     if fidelity == "fem" and 0.0 < design.number(Y) < 0.01:
         return failure(fidelity, NOT_CONVERGED, "No convergence.")
     return vanishing(design, fidelity, gradient)
+
+
+def corner(design, fidelity="fem", gradient=(), exponent=32, share=2.0):
+    """Force share x + y; a stray field that is the larger of x and y at two places, with its norm."""
+    x, y = design.number(X), design.number(Y)
+    norm = ((x**exponent + y**exponent) / 2) ** (1 / exponent)
+    rows = {key: (value / norm) ** (exponent - 1) / 2 for key, value in ((X, x), (Y, y))}
+    return made(
+        {"force_constant": share * x + y, "stray_field": max(x, y)},
+        {"force_constant": {X: share, Y: 1.0}, "stray_field": rows},
+        gradient,
+        {"stray_field": Norm(float(exponent), norm)},
+        fidelity,
+    )
