@@ -72,13 +72,17 @@ def table(runs: list[Run], maximise: bool) -> str:
     if not found:
         sys.exit("No run found a feasible design.")
     best = max(found) if maximise else min(found)
-    rows = ["| search | network | designs to 0.1 % | seconds | designs in all | best |", "|---|---|---|---|---|---|"]
+    rows = [
+        "| search | network | designs to 0.1 % | seconds | designs in all | network calls | best |",
+        "|---|---|---|---|---|---|---|",
+    ]
     for item in runs:
         index = arrived(item, best, maximise)
         near = ("–", "–") if index is None else (str(index + 1), f"{item.seconds[index]:.1f}")
         shown = "–" if item.best is None else f"{item.best:.6g}"
         rows.append(
-            f"| {item.algorithm} | {item.network} | {near[0]} | {near[1]} | {len(item.result.history)} | {shown} |"
+            f"| {item.algorithm} | {item.network} | {near[0]} | {near[1]} | {len(item.result.history)} "
+            f"| {item.result.network_calls} | {shown} |"
         )
     return "\n".join(rows)
 

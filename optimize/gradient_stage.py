@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
+from fluxbore.design.errors import FluxboreError
 from fluxbore.optimize.archive import Archive
 from fluxbore.optimize.gradient_search import NO_START, View, minimise
 from fluxbore.optimize.nlopt_loop import Ending
@@ -14,8 +15,9 @@ from fluxbore.optimize.outcome import Candidate
 from fluxbore.optimize.problem import Point
 from fluxbore.optimize.slopes import NoSlopesError, Slopes
 
-BESIDE = 1e-3
-"""Of a variable's range: how far from a design without derivatives a neighbour lends it its own."""
+BESIDE = (1e-3, 1e-2)
+"""Of a variable's range: how far from a design without derivatives a neighbour lends it its own; the first at which
+there can be a design, for a part may be too thin to be made or meshed before it vanishes."""
 
 ROUNDS = 8
 """Runs of NLopt, each from where the one before ended; designs seen before cost nothing."""
@@ -118,17 +120,28 @@ class GradientStage:
             return self.slopes.view(made, kappas)
         except NoSlopesError as error:
             beside = self.archive.at(self.neighbour(x, error.keys))
+            if beside is made:
+                raise
             if not beside.evaluation.ok:
                 return None
             return self.slopes.view(made, kappas, beside)
 
     def neighbour(self, x: Point, keys: Sequence[str]) -> Point:
         """The point a little nearer to the middle of these variables' ranges."""
-        moved = [
-            value if key not in keys else value + (BESIDE if value <= 0.5 else -BESIDE)
-            for key, value in zip(self.archive.box.keys, x, strict=True)
-        ]
-        return self.archive.box.tidy(moved)
+        box = self.archive.box
+        for step in BESIDE:
+            moved = box.tidy(
+                [
+                    value if key not in keys else value + (step if value <= 0.5 else -step)
+                    for key, value in zip(box.keys, x, strict=True)
+                ]
+            )
+            try:
+                self.archive.design(box.values(moved))
+            except FluxboreError:
+                continue
+            return moved
+        return box.tidy(x)
 
     def lender(self, made: Candidate) -> Candidate | None:
         """The neighbour whose derivatives stood in for this design's; None where it has its own or there is none."""

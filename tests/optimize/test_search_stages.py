@@ -6,6 +6,7 @@ import pytest
 import smooth
 import toy
 
+from fluxbore.design.errors import DesignError
 from fluxbore.design.study import Constraint, Variable
 from fluxbore.optimize.executor import SerialExecutor
 from fluxbore.optimize.search import run_search
@@ -82,6 +83,22 @@ def test_a_start_at_which_a_part_vanishes_does_not_end_the_search(start):
     assert result.algorithm == "SLSQP"
     assert result.best.objective == pytest.approx(ON_LIMIT, rel=2e-5)
     assert len(result.history) <= 25
+
+
+def test_a_neighbour_that_cannot_be_built_is_passed_over():
+    """As rings may be of no width, or of 20 um and more: what lies between cannot lend its derivatives."""
+
+    def built(values):
+        if 0 < values[toy.Y] < 0.01:
+            raise DesignError(f"actuator.y must be 0 m or at least 0.01 m; got {values[toy.Y]}.")
+        return toy.from_values(values)
+
+    variables = (Variable(toy.X, 0.1, 2.0), Variable(toy.Y, 0.0, 2.0))
+    spec = smooth.study(0.5, 0.0, variables=variables, network="off")
+    result = search(replace(spec, kind=replace(toy.TOY, from_values=built)), smooth.vanishing)
+    assert result.algorithm == "SLSQP"
+    assert result.best.objective == pytest.approx(ON_LIMIT, rel=2e-5)
+    assert all(made.evaluation.ok for made in result.history)
 
 
 def test_an_optimum_at_which_a_part_vanishes_is_found_and_priced():
