@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from fluxbore.design.errors import FluxboreError
@@ -17,7 +18,7 @@ from fluxbore.optimize.slopes import NoSlopesError, Slopes
 
 BESIDE = (1e-3, 1e-2)
 """Of a variable's range: how far from a design without derivatives a neighbour lends it its own; the first at which
-there can be a design, for a part may be too thin to be made or meshed before it vanishes."""
+there is a sound one, for a part may be too thin to be made or meshed before it vanishes."""
 
 ROUNDS = 8
 """Runs of NLopt, each from where the one before ended; designs seen before cost nothing."""
@@ -119,39 +120,42 @@ class GradientStage:
         try:
             return self.slopes.view(made, kappas)
         except NoSlopesError as error:
-            beside = self.archive.at(self.neighbour(x, error.keys))
-            if beside is made:
+            points = self._beside(x, error.keys)
+            if not points:
                 raise
-            if not beside.evaluation.ok:
-                return None
-            return self.slopes.view(made, kappas, beside)
+            beside = self._first_sound(points)
+            return None if beside is None else self.slopes.view(made, kappas, beside)
 
-    def neighbour(self, x: Point, keys: Sequence[str]) -> Point:
-        """The point a little nearer to the middle of these variables' ranges."""
-        box = self.archive.box
-        for step in BESIDE:
+    def lender(self, made: Candidate) -> Candidate | None:
+        """The neighbour whose derivatives stood in for this design's; None where it has its own or there is none."""
+        try:
+            self.slopes.view(made, self.slopes.kappas(made))
+        except NoSlopesError as error:
+            points = self._beside(self.archive.box.point(made.values), error.keys)
+            return self._first_sound(point for point in points if self.archive.knows(point))
+        return None
+
+    def _first_sound(self, points: Iterable[Point]) -> Candidate | None:
+        for point in points:
+            made = self.archive.at(point)
+            if made.evaluation.ok:
+                return made
+        return None
+
+    def _beside(self, x: Point, keys: Sequence[str]) -> list[Point]:
+        """The points a little nearer to the middle of these variables' ranges at which something can be built."""
+        box, found = self.archive.box, []
+        for step in BESIDE if keys else ():
             moved = box.tidy(
                 [
                     value if key not in keys else value + (step if value <= 0.5 else -step)
                     for key, value in zip(box.keys, x, strict=True)
                 ]
             )
-            try:
+            with contextlib.suppress(FluxboreError):
                 self.archive.design(box.values(moved))
-            except FluxboreError:
-                continue
-            return moved
-        return box.tidy(x)
-
-    def lender(self, made: Candidate) -> Candidate | None:
-        """The neighbour whose derivatives stood in for this design's; None where it has its own or there is none."""
-        point = self.archive.box.point(made.values)
-        try:
-            self.slopes.view(made, self.slopes.kappas(made))
-        except NoSlopesError as error:
-            beside = self.neighbour(point, error.keys)
-            return self.archive.at(beside) if self.archive.knows(beside) else None
-        return None
+                found.append(moved)
+        return found
 
     def settled(self, kappas: Mapping[str, float], point: Point) -> bool:
         """Whether maximum / norm at the point is what the round took it for."""
