@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from fluxbore.design.spec import Spec
-from fluxbore.reports.wording import key_label, key_scale
+from fluxbore.reports.wording import key_scale
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,14 +89,15 @@ def assumptions(spec: Spec, name: str) -> str:
     if found is None:
         return ""
     marked = {note.key for note in spec.notes if note.status == "assumed"}
-    parts = [
-        f"{key_label(spec, key)} {_value(spec, key)}"
-        for key in found.rests_on
-        if key in spec.values and (key in marked or key not in spec.given)
-    ]
-    return "; ".join([*parts, *([found.assumed] if found.assumed else [])])
+    parts = [_value(spec, key, key in marked) for key in found.rests_on if key in spec.values]
+    return "; ".join([*(part for part in parts if part), *([found.assumed] if found.assumed else [])])
 
 
-def _value(spec: Spec, key: str) -> str:
-    value = spec.values[key]
-    return str(value) if isinstance(value, str) else key_scale(spec, key, [float(value)]).quantity(float(value))
+def _value(spec: Spec, name: str, marked: bool) -> str:
+    """``emissivity 0.1 (default)``; empty where the specification gives a value of its own without a doubt."""
+    value, key = spec.values[name], spec.kind.known(name)
+    taken = name not in spec.given or value == key.default
+    if not marked and not taken:
+        return ""
+    shown = value if isinstance(value, str) else key_scale(spec, name, [float(value)]).quantity(float(value))
+    return f"{key.leaf.replace('_', ' ')} {shown}{'' if marked else ' (default)'}"

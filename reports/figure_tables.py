@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from fluxbore.design.performance import FIGURES, grouped
+from fluxbore.design.rates import measure_of_figure
 from fluxbore.optimize.evaluation import Evaluation
 from fluxbore.reports.content import ReportContent
 from fluxbore.reports.figure_sources import assumptions, source_text
 from fluxbore.reports.tables import Cell, Table
-from fluxbore.reports.wording import DASH, capital, change, figure_label, figure_scale, meaning
+from fluxbore.reports.wording import DASH, capital, change, difference, figure_label, figure_scale, meaning
 
 
 def comparison(content: ReportContent) -> Table | None:
@@ -18,7 +19,7 @@ def comparison(content: ReportContent) -> Table | None:
     if content.is_study and content.start is not None:
         columns.append((f"Start, {short}", content.start))
     columns += [(f"{word}{short}", design)] if design is not None else []
-    columns += [(f"{word}network", network)] if network is not None else []
+    columns += [(capital(f"{word}network"), network)] if network is not None else []
     both = design is not None and network is not None
     rows: list[tuple[Cell, ...]] = []
     sections = []
@@ -31,7 +32,7 @@ def comparison(content: ReportContent) -> Table | None:
             cells += [Cell(scale.number(value)) for value in values]
             if design is not None and network is not None:
                 fine, coarse = getattr(design.performance, name), getattr(network.performance, name)
-                cells.append(Cell(change(fine, coarse) or DASH, "muted"))
+                cells.append(Cell(_against(name, fine, coarse) or DASH, "muted"))
             rows.append(tuple(cells))
     head = ("Figure", "Unit", *(title for title, _ in columns), *((f"Network against {short}",) if both else ()))
     caption = "Every figure by both routes" if both else f"Every figure by {content.words.route}"
@@ -47,10 +48,17 @@ def meanings(content: ReportContent) -> Table | None:
         for name in names:
             texts = (meaning(name), source_text(name), assumptions(content.design_spec, name))
             rows.append((Cell(capital(figure_label(name))), *(Cell(text or DASH) for text in texts)))
-    head = ("Figure", "What it is", "Formula (source)", "Rests on assumed")
+    head = ("Figure", "What it is", "Formula (source)", "Assumed or by default")
     columns = frozenset({1, 2, 3})
     caption = "What each figure is and where it comes from"
     return Table(caption, head, tuple(rows), words=columns, sections=tuple(sections), signs=True) if rows else None
+
+
+def _against(name: str, fine: float | None, coarse: float | None) -> str:
+    """The relative change; of temperatures, which have no share of one another, the difference."""
+    if FIGURES[name].dimension == "temperature" and fine is not None and coarse is not None:
+        return difference(measure_of_figure(name), coarse - fine, signed=True)
+    return change(fine, coarse)
 
 
 def _given(content: ReportContent) -> list[str]:

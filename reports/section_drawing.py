@@ -5,6 +5,9 @@ from __future__ import annotations
 from fluxbore.geometry.assembly import Assembly
 from fluxbore.reports.svg import Drawing, drawing, new_figure, style
 
+FEW = 6
+"""Parts that the legend names one by one; of more it names their roles."""
+
 TALLEST = 0.6
 """Height of the drawing, of its width."""
 
@@ -27,7 +30,7 @@ def section(assembly: Assembly, name: str = "section", width: float = 1000.0) ->
         plot = canvas.subplots()
         roles: dict[str, tuple[float, float, float]] = {}
         for part in assembly.parts:
-            roles.setdefault(part.role, part.colour)
+            roles.setdefault(part.name if len(assembly.parts) <= FEW else part.role, part.colour)
             for sign in (1, -1):
                 points = [(z * 1e3, sign * r * 1e3) for r, z in part.profile]
                 plot.add_patch(Polygon(points, facecolor=part.colour, edgecolor=EDGE, linewidth=0.5))

@@ -38,8 +38,9 @@ class Sensitivities:
 
 
 def sensitivities(content: ReportContent) -> Sensitivities | None:
-    """The tables of the design's derivatives; None without any."""
-    design = content.design
+    """The tables of the design's derivatives, by the study's variables or else by what has tolerances; None without."""
+    found = (content.design, content.tolerance.nominal if content.tolerance is not None else None)
+    design = next((item for item in found if item is not None and item.gradient), None)
     if design is None or not design.gradient:
         return None
     moved = [name for name, slopes in design.gradient.items() if any(slopes.values())]

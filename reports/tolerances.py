@@ -96,7 +96,7 @@ def tolerances(spec: Spec, result: ToleranceResult) -> Table | None:
                 Cell(effect.tolerance.distribution),
                 Cell(percent(effect.halved)),
                 Cell(_points(effect.gain, signed=True), "strong" if effect.gain > LEAST_GAIN else "muted"),
-                *(Cell(percent(share)) for share in effect.shares),
+                *(Cell(f"{100 * share:.1f}\u00a0%") for share in effect.shares),
             )
         )
     shares = (f"Share of the variance, {subject_label(spec, limit.subject)}" for limit in limits)

@@ -19,6 +19,9 @@ DASH = "–"
 DIGITS = 4
 """Significant digits of a figure: finite elements are right to about 0.2 %."""
 
+WEAK_FIELD = 0.1
+"""T, below which the page gives flux densities in millitesla."""
+
 _UNIT_SIGNS = {
     "N/sqrt(W)": "N/√W",
     "ohm": "Ω",
@@ -83,12 +86,13 @@ def scale(dimension: str, values: Iterable[float | None], digits: int = DIGITS) 
     if dimension == "fraction":
         return Scale("%", 0.01, decimals=2)
     if dimension == "count":
-        return Scale("", 1.0, decimals=0 if all(size.is_integer() for size in sizes) else _decimals(smallest, digits))
+        least = min((v for v in sizes if v > largest / 1000), default=0.0)
+        return Scale("", 1.0, decimals=0 if all(size.is_integer() for size in sizes) else _decimals(least, digits))
     if dimension == "power":
         return Scale("W", 1.0, decimals=_decimals(smallest, digits))
     table = DIMENSIONS[dimension]
     name = table.preferred
-    if dimension == "flux density" and largest < 0.1:
+    if dimension == "flux density" and largest < WEAK_FIELD:
         name = "mT"
     elif dimension == "electric loading" and largest >= 1e3:
         name = "kA/m"
@@ -126,7 +130,11 @@ def subject_scale(spec: Spec, subject: str, values: Iterable[float | None]) -> S
 
 def subject_measure(spec: Spec, subject: str, size: float = 1.0) -> Measure:
     """The unit for differences of a figure of this size (SI), or of a dotted key."""
-    return measure_of_figure(subject, size) if subject in FIGURES else measure_of_key(spec.kind.known(subject))
+    if subject not in FIGURES:
+        return measure_of_key(spec.kind.known(subject))
+    if FIGURES[subject].dimension == "flux density" and abs(size) < WEAK_FIELD:
+        return Measure(1e-3, "mT")
+    return measure_of_figure(subject, size)
 
 
 def unit_sign(unit: Measure) -> str:
@@ -154,6 +162,8 @@ def figure_label(name: str) -> str:
         "outer_diameter": "overall diameter",
         "length": "overall length",
         "cogging_force": "largest cogging force",
+        "back_emf": "back-EMF",
+        "no_load_speed": "no-load speed",
         "pneumatic_force_advance": "pneumatic force, advancing",
         "pneumatic_force_retract": "pneumatic force, retracting",
     }
@@ -179,7 +189,8 @@ def greek(text: str) -> str:
 def key_label(spec: Spec, name: str) -> str:
     """What a dotted key is called: the table's own short description, else the last part of its name.
 
-    Descriptions that run on into an explanation are cut at the first comma, colon or semicolon.
+    Descriptions that run on are cut at the first comma, colon or semicolon; keys of several sections
+    that share one have the section behind it.
     """
     own = {
         "actuator.mover.ring_width": "ring width",
@@ -189,7 +200,11 @@ def key_label(spec: Spec, name: str) -> str:
     if name in own:
         return own[name]
     key = spec.kind.key(name)
-    return re.split(r"[;:,]", key.doc)[0].strip() if key is not None else name.rpartition(".")[2].replace("_", " ")
+    if key is None:
+        return name.rpartition(".")[2].replace("_", " ")
+    label = re.split(r"[;:,]", key.doc)[0].strip().replace("degC", "°C")
+    alike = any(other.doc == key.doc and other.name != name for other in spec.kind.keys)
+    return f"{label} ({name.split('.')[-2].replace('_', ' ')})" if alike else label
 
 
 def subject_label(spec: Spec, subject: str) -> str:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from fluxbore.actuators import actuator_of
 from fluxbore.design.spec import Spec
 from fluxbore.design_result import DesignResult
 from fluxbore.optimize.evaluate import evaluate as evaluate_design
+from fluxbore.optimize.evaluation import Evaluation
 from fluxbore.optimize.outcome import Candidate
 
 AS_DRAWN = "Tolerances of manufacture: every dimension is taken as drawn; the study has no production."
@@ -27,16 +29,16 @@ def write_report_file(
     from fluxbore.reports.content import Picture, ReportContent
     from fluxbore.reports.page import write_report
 
-    final = findings.spec
+    final, found = findings.spec, _with_derivatives(spec, findings)
     studied = findings.search is not None and findings.search.chosen is not None
     views = actuator_of(final)
     parts = views.assembly(final)
-    start = findings.search.start.evaluation if findings.search is not None else findings.evaluation
+    start = findings.search.start.evaluation if findings.search is not None else found
     content = ReportContent(
         spec=spec,
         chosen_spec=final if studied else None,
         start=start,
-        chosen=findings.evaluation if studied else None,
+        chosen=found if studied else None,
         start_network=evaluate_design(spec, "network") if views.words.network else None,
         chosen_network=evaluate_design(final, "network") if studied and views.words.network else None,
         search=findings.search,
@@ -59,6 +61,15 @@ def write_report_file(
         robust=findings.robust,
     )
     return write_report(content, path)
+
+
+def _with_derivatives(spec: Spec, findings: DesignResult) -> Evaluation:
+    """The design's evaluation, its derivatives by the study's variables too, which not every search asks for."""
+    found, keys = findings.evaluation, tuple(item.key for item in spec.study.variables if not item.integer)
+    if not found.ok or found.gradient or not keys:
+        return found
+    again = evaluate_design(findings.spec, found.fidelity, keys)
+    return replace(found, gradient=again.gradient, norms=again.norms)
 
 
 def _untold(findings: DesignResult) -> tuple[str, ...]:
