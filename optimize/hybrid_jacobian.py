@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import lru_cache
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -15,6 +14,9 @@ from fluxbore.geometry.cross_section import CrossSection, alike, numbers
 from fluxbore.geometry.hybrid import cross_section
 from fluxbore.optimize.hybrid_field import Field, intrinsic_coercivity, peak_currents, ranges, thrust_sign
 from fluxbore.optimize.partials import slope
+
+if TYPE_CHECKING:
+    from fluxbore.fem.tubular import TubularSolution
 
 Floats = Any
 
@@ -30,13 +32,12 @@ class Jacobians:
     keys : those of the wanted ones by which the cross-section keeps its topology; the columns of all arrays.
     positions : (window, keys). pitch, coercivity : (keys,). currents : (3, keys) of each peak state's phases.
 
-    The sections at two positions differ by what moves with the mover, so one section's derivatives serve all, but for
-    keys that move the positions themselves.
+    The sections at two positions differ by what moves with the mover, so one section's derivatives serve all of its
+    topology, but for keys that move the positions themselves.
     """
 
     def __init__(self, spec: Spec, field: Field, keys: Sequence[str]) -> None:
-        self._spec, self._field = spec, field
-        self._first = field.window[0]
+        self._spec = spec
         count, peaks = len(field.window), len(field.peaks)
         sign = thrust_sign(spec, field.middle) if peaks else 1.0
         signs = [sign, -sign][:peaks]
@@ -49,40 +50,35 @@ class Jacobians:
                 [*window, moved.number("actuator.mover.pole_pitch"), intrinsic_coercivity(moved), *currents]
             )
 
+        unlike = _unlike(field)
         columns = {}
         for key in keys:
-            section, other = (
-                slope(spec, key, self._at(self._first.section, self._first.position)),
-                slope(spec, key, others),
-            )
-            if section is not None and other is not None:
-                columns[key] = (section, other)
+            found = [slope(spec, key, self._at(state.section, state.position)) for state in unlike]
+            found.append(slope(spec, key, others))
+            if not any(column is None for column in found):
+                columns[key] = found
         self.keys = list(columns)
-        self._by_key = _columns([section for section, _ in columns.values()])
-        rest = _columns([other for _, other in columns.values()])
+        width = len(self.keys)
+        stacked = [np.column_stack(parts) for parts in zip(*columns.values(), strict=True)]
+        rest = stacked[-1] if stacked else np.zeros((count + 2 + 3 * peaks, 0))
         self.positions, self.pitch, self.coercivity = rest[:count], rest[count], rest[count + 1]
         self.currents = [rest[count + 2 + 3 * k : count + 5 + 3 * k] for k in range(peaks)]
-        self._by_position = self._slope_by_position()
+        by_position = [self._slope_by_position(state) for state in unlike]
+        by_key = stacked[:-1] if stacked else [np.zeros((slopes.size, width)) for slopes in by_position]
+        self._states = []
+        for index, state in enumerate(field.window):
+            kind = next(k for k, other in enumerate(unlike) if alike(state.section, other.section))
+            self._states.append(by_key[kind] + np.outer(by_position[kind], self.positions[index]))
+        self._states += [self._states[count // 2]] * peaks
 
     def numbers(self, state: int) -> Floats:
         """(numbers, keys) of the state's cross-section."""
-        return self._all(state)[: -2 * len(LIMITS)]
+        return self._states[state][: -2 * len(LIMITS)]
 
     def limits(self, state: int, name: str) -> Floats:
         """(2, keys) of the two z between which a figure is read in the state."""
         start = -2 * (len(LIMITS) - LIMITS.index(name))
-        return self._all(state)[start : start + 2 or None]
-
-    @lru_cache(maxsize=64)  # noqa: B019  as many as a design has states; it goes with the design
-    def _all(self, state: int) -> Floats:
-        window = self._field.window
-        index = state if state < len(window) else len(window) // 2
-        here = window[index]
-        by_key = self._by_key
-        if not alike(here.section, self._first.section):
-            found = [slope(self._spec, key, self._at(here.section, here.position)) for key in self.keys]
-            by_key = _columns([np.zeros(by_key.shape[0]) if column is None else column for column in found])
-        return by_key + np.outer(self._by_position, self.positions[index])
+        return self._states[state][start : start + 2 or None]
 
     def _at(self, like: CrossSection, position: float) -> Any:
         """The section's numbers and the limits at a position, as a function of the specification."""
@@ -96,16 +92,20 @@ class Jacobians:
 
         return vector
 
-    def _slope_by_position(self) -> Floats:
-        here = self._first
-        ends = [
+    def _slope_by_position(self, here: TubularSolution) -> Floats:
+        ahead, behind = (
             self._at(here.section, here.position + step)(self._spec, 0.0) for step in (POSITION_STEP, -POSITION_STEP)
-        ]
-        return (ends[0] - ends[1]) / (2 * POSITION_STEP)
+        )
+        return (ahead - behind) / (2 * POSITION_STEP)
 
 
-def _columns(found: Sequence[Floats]) -> Floats:
-    return np.column_stack(found) if found else np.zeros((0, 0))
+def _unlike(field: Field) -> list[TubularSolution]:
+    """One position of each topology that the cross-section has within the window; as a rule there is one."""
+    found: list[TubularSolution] = []
+    for state in field.window:
+        if not any(alike(state.section, other.section) for other in found):
+            found.append(state)
+    return found
 
 
 def _section(spec: Spec, position: float) -> CrossSection:
