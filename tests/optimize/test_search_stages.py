@@ -155,3 +155,34 @@ def test_prices_are_what_moving_the_limit_buys(figure, maximise, limits):
     assert price.subject == limits.subject
     assert price.per_unit == pytest.approx(bought, rel=1e-2)
     assert (price.per_unit > 0) == ((price.sense == "<=") == maximise)
+
+
+def test_a_limit_relative_to_the_start_is_the_start_s_maximum():
+    """Catches the start's norm, 7 % below its maximum, as the limit, and a search that leaves the difference unused."""
+    limit = Constraint("stray_field", upper=1.0, relative_to_start=True)
+    result = search(smooth.study(-1.0, 0.5, (limit,), network="off"), smooth.ridge)
+    own = smooth.ridge_peak(-1.0, 0.5)
+    (check,) = result.best.checks
+    assert check.limit.limit == own == result.start.evaluation.performance.stray_field
+    assert check.active
+    assert check.satisfied
+    assert result.best.objective > result.start.objective + 1
+
+
+def test_the_residual_of_a_corner_is_nil():
+    """max x + y with a limit and a bound active, and another limit near by that has no part in it."""
+    variables = (Variable(toy.X, -2.0, 2.0), Variable(toy.Y, -2.0, 0.5))
+    limits = (Constraint("stray_field", upper=1.0), Constraint("force_constant", lower=9.7))
+    result = search(smooth.study(constraints=limits, figure="total_mass", variables=variables, relative_tolerance=1e-8))
+    assert result.best.objective == pytest.approx(0.75**0.5 + 0.5, rel=1e-6)
+    assert result.optimality.residual < 1e-6
+    assert {item.subject for item in result.optimality.multipliers} == {"stray_field", toy.Y}
+
+
+def test_a_variable_that_limits_leave_no_room_stays():
+    """Catches a division by a range of zero."""
+    limits = (Constraint(toy.X, lower=0.3, upper=0.3), Constraint("stray_field", upper=1.0))
+    result = search(smooth.study(0.3, 0.5, limits, network="off"))
+    assert result.best.values[toy.X] == 0.3
+    assert result.best.values[toy.Y] == pytest.approx(0.09, abs=1e-3)
+    assert result.optimality.residual < 1e-3
