@@ -29,7 +29,7 @@ def write_report_file(
     from fluxbore.reports.content import Picture, ReportContent
     from fluxbore.reports.page import write_report
 
-    final, found = findings.spec, _with_derivatives(spec, findings)
+    final, found = findings.spec, design_evaluation(spec, findings)
     studied = findings.search is not None and findings.search.chosen is not None
     views = actuator_of(final)
     parts = views.assembly(final)
@@ -63,12 +63,15 @@ def write_report_file(
     return write_report(content, path)
 
 
-def _with_derivatives(spec: Spec, findings: DesignResult) -> Evaluation:
-    """The design's evaluation, its derivatives by the study's variables too, which not every search asks for."""
+def design_evaluation(spec: Spec, findings: DesignResult) -> Evaluation:
+    """The design's evaluation, with derivatives by the study's variables, which not every search asks for.
+
+    They are those of `fluxbore.evaluate`: what the study holds stays as it is.
+    """
     found, keys = findings.evaluation, tuple(item.key for item in spec.study.variables if not item.integer)
     if not found.ok or found.gradient or not keys:
         return found
-    again = evaluate_design(findings.spec, found.fidelity, keys)
+    again = evaluate_design(findings.spec.for_study().pinned(keys), found.fidelity, keys)
     return replace(found, gradient=again.gradient, norms=again.norms)
 
 
