@@ -37,13 +37,15 @@ def sentences(result: ParetoResult, words: KindWords) -> tuple[str, ...]:
     """What was traded, what the trade costs, how the front was found and why it ended."""
     one, other = figure_label(result.objective.figure), figure_label(result.against.figure)
     found = [
-        f"{_goal(result.objective)} against {_goal(result.against)}, by {METHODS.get(result.method, result.method)}."
+        f"{capital(_goal(result.objective))} against {_goal(result.against)}, by {METHODS.get(result.method, result.method)}."
     ]
     if not result.conflicting:
         found.append(f"{capital(one)} and {other} do not conflict: one design is the best in both.")
     found += [text for text in (_span(result), _exchange_range(result)) if text]
     count = len(result.history)
-    cost = f"{result.reused} of them from an earlier run" if result.replayed else f"in {duration(result.seconds)}"
+    cost = (
+        f"{result.reused} of them from an earlier run" if result.replayed else f"computed in {duration(result.seconds)}"
+    )
     by = f", by {result.algorithm}" if result.algorithm else ""
     found.append(f"{count} designs by {words.route}{by}, {cost}. {result.stop_reason}")
     if result.hypervolume is not None:
