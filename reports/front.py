@@ -36,9 +36,8 @@ METHODS = {
 def sentences(result: ParetoResult, words: KindWords) -> tuple[str, ...]:
     """What was traded, what the trade costs, how the front was found and why it ended."""
     one, other = figure_label(result.objective.figure), figure_label(result.against.figure)
-    found = [
-        f"{capital(_goal(result.objective))} against {_goal(result.against)}, by {METHODS.get(result.method, result.method)}."
-    ]
+    method = METHODS.get(result.method, result.method)
+    found = [f"{capital(_goal(result.objective))} against {_goal(result.against)}, by {method}."]
     if not result.conflicting:
         found.append(f"{capital(one)} and {other} do not conflict: one design is the best in both.")
     found += [text for text in (_span(result), _exchange_range(result)) if text]
