@@ -2,7 +2,7 @@
 
     python benchmarks/gradient.py
 
-Seconds are the median of three, in one thread: of an evaluation from no field, and of the same with the derivatives of
+Seconds are the processor's, in one thread, the median of three: of an evaluation from no field, and of the same with the derivatives of
 all figures by eight and by twenty keys. Beside them the largest error of any figure's derivative against extrapolated
 differences that can tell (`gradient_differences`), relative to max(|derivative|, figure/key).
 """
@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from statistics import median
-from time import perf_counter
+from time import process_time
 
 from gradient_designs import EXAMPLE
 from gradient_differences import TOLERANCE, Designs, scale, size
@@ -55,9 +55,9 @@ def seconds(spec: Spec, keys: Sequence[str]) -> float:
     """Of one evaluation; median of `RUNS`."""
     found = []
     for _ in range(RUNS):
-        begin = perf_counter()
+        begin = process_time()
         assert evaluate(spec, "fem", keys).ok
-        found.append(perf_counter() - begin)
+        found.append(process_time() - begin)
     return median(found)
 
 

@@ -45,6 +45,9 @@ from fluxbore.optimize.partials import moved
 TOLERANCE = 1e-12
 """Of Newton's residual, relative to the load."""
 
+FINER = Settings(5e-14, max_iterations=8)
+"""Of neighbours, as far as rounding allows; they count if they come to `TOLERANCE`."""
+
 FIRST_STEP = 4e-4
 """Of a key's size (`size`)."""
 
@@ -121,10 +124,9 @@ class Designs:
         if key in self._own:
             return self._own[key]
         phases = [circuit.name for circuit in near.solution.problem.circuits]
-        solved = solve_currents(
-            section, position, dict(zip(phases, currents, strict=True)), Settings(TOLERANCE), near=near
-        )
-        if not solved.convergence.converged:
+        # A small step is solved by next to nothing: what is left of it must be small beside the step itself.
+        solved = solve_currents(section, position, dict(zip(phases, currents, strict=True)), FINER, near=near)
+        if solved.convergence.residual > TOLERANCE:
             raise DesignError(solved.convergence.sentence())
         if keep:
             self._own[key] = solved
