@@ -2,9 +2,9 @@
 
     python benchmarks/gradient.py
 
-Seconds are the processor's, in one thread, the median of three: of an evaluation from no field, and of the same with the derivatives of
-all figures by eight and by twenty keys. Beside them the largest error of any figure's derivative against extrapolated
-differences that can tell (`gradient_differences`), relative to max(|derivative|, figure/key).
+Seconds are the processor's, in one thread, the median of three: of an evaluation from no field, and of the same with
+the derivatives of all figures by eight and by twenty keys. Beside them the largest error of any figure's derivative
+against extrapolated differences that can tell (`gradient_differences`), relative to max(|derivative|, figure/key).
 """
 
 from __future__ import annotations
