@@ -76,6 +76,10 @@ class Designs:
             self._signs = [sign * thrust_sign(spec, field.middle) for sign in self._signs]
         self._own: dict[bytes, TubularSolution] = {}
         self._of_field: dict[tuple[object, ...], dict[str, float | None]] = {}
+        results = tuple(position_result(item, spec.actuator.mover.pole_pitch) for item in field.window)
+        true = field_figures(spec, field, results)
+        # What follows from a maximum takes it to change as its norm does: by these factors, which stay.
+        self._ratios = {name: (true[name] or 0.0) / norm if norm else 1.0 for name, norm in norms(spec, field).items()}
         self.own = self.figures(spec, keep=True)
 
     def figures(self, spec: Spec, keep: bool = False) -> Figures:
@@ -94,10 +98,10 @@ class Designs:
             for sign, near in zip(self._signs, self._field.peaks, strict=True)
         ]
         found = to_mapping(complete(spec, self._figures_of_field(spec, Field(window, peaks), keep)))
-        return {name: value for name, value in found.items() if value is not None}
+        return {name: value / self._ratios.get(name, 1.0) for name, value in found.items() if value is not None}
 
     def _figures_of_field(self, spec: Spec, field: Field, keep: bool) -> dict[str, float | None]:
-        """With norms for maxima."""
+        """With norms for maxima, times their factors."""
         mark = (
             *(id(item) for item in (*field.window, *field.peaks)),
             *(ranges(spec.actuator, item.position) for item in field.window),
@@ -107,7 +111,8 @@ class Designs:
         if mark in self._of_field:
             return self._of_field[mark]
         results = tuple(position_result(item, spec.actuator.mover.pole_pitch) for item in field.window)
-        found = {**field_figures(spec, field, results), **norms(spec, field)}
+        smooth = {name: self._ratios[name] * norm for name, norm in norms(spec, field).items()}
+        found = {**field_figures(spec, field, results), **smooth}
         if keep:
             self._of_field[mark] = found
         return found

@@ -50,34 +50,39 @@ def gradient(
     keys: Sequence[str],
     complete: Complete,
 ) -> tuple[dict[str, dict[str, float]], dict[str, Norm]]:
-    """Figure -> key -> derivative (SI), and the norms of those figures that are maxima or follow from one.
+    """Figure -> key -> derivative (SI), and the norms of those figures that are maxima.
 
     positions : of the window, as the evaluation has them. true : the field's figures. Keys that are not continuous are
-    passed over.
+    passed over. Of a maximum it is the norm's derivative; a figure that follows from one, such as a loss, takes the
+    maximum to change as its norm does, in proportion.
     """
     base = spec.pinned(keys)
     jacobians = Jacobians(base, field, differentiable(base, keys))
     if not jacobians.keys:
         return {}, {}
     slopes, norms = _field_slopes(base, field, positions, jacobians)
-    smooth: dict[str, float | None] = {**true, **norms}
+
+    def ratio(name: str) -> float:
+        value, norm = true[name], norms.get(name)
+        return 1.0 if value is None or not norm else value / norm
+
+    rates = {name: ratio(name) * by_key for name, by_key in slopes.items()}
 
     def completed(moved: Spec, step: float, key: str) -> Performance:
         place = jacobians.keys.index(key)
-        shifted = {
-            name: None if value is None else value + step * float(slopes[name][place]) if name in slopes else value
-            for name, value in smooth.items()
-        }
-        return complete(moved, shifted)
+        return complete(
+            moved,
+            {
+                name: value if value is None or name not in rates else value + step * float(rates[name][place])
+                for name, value in true.items()
+            },
+        )
 
     found = closed_gradient(base, jacobians.keys, completed, without=STEPWISE)
-    exact, standing_in = complete(base, true), complete(base, smooth)
-    replaced = {
-        name: Norm(EXPONENT, value)
-        for name in found
-        if (value := getattr(standing_in, name)) is not None and value != getattr(exact, name)
-    }
-    return found, replaced
+    for name in norms:
+        if name in found:
+            found[name] = dict(zip(jacobians.keys, (float(value) for value in slopes[name]), strict=True))
+    return found, {name: Norm(EXPONENT, value) for name, value in norms.items() if name in found}
 
 
 @dataclass(frozen=True, slots=True, eq=False)

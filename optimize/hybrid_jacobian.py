@@ -51,24 +51,30 @@ class Jacobians:
             )
 
         unlike = _unlike(field)
+        by_position = [self._slope_by_position(state) for state in unlike]
         columns = {}
         for key in keys:
             found = [slope(spec, key, self._at(state.section, state.position)) for state in unlike]
-            found.append(slope(spec, key, others))
-            if not any(column is None for column in found):
-                columns[key] = found
+            other = slope(spec, key, others)
+            if other is None or any(column is None for column in found):
+                continue
+            # Where the mover's parts meet the stator's, the section has no derivative by the position.
+            if not np.any(other[:count]) or all(slopes is not None for slopes in by_position):
+                columns[key] = [*found, other]
         self.keys = list(columns)
         width = len(self.keys)
         stacked = [np.column_stack(parts) for parts in zip(*columns.values(), strict=True)]
         rest = stacked[-1] if stacked else np.zeros((count + 2 + 3 * peaks, 0))
         self.positions, self.pitch, self.coercivity = rest[:count], rest[count], rest[count + 1]
         self.currents = [rest[count + 2 + 3 * k : count + 5 + 3 * k] for k in range(peaks)]
-        by_position = [self._slope_by_position(state) for state in unlike]
-        by_key = stacked[:-1] if stacked else [np.zeros((slopes.size, width)) for slopes in by_position]
+        sizes = [self._at(state.section, state.position)(spec, 0.0).size for state in unlike]
+        by_key = stacked[:-1] if stacked else [np.zeros((size, width)) for size in sizes]
         self._states = []
         for index, state in enumerate(field.window):
             kind = next(k for k, other in enumerate(unlike) if alike(state.section, other.section))
-            self._states.append(by_key[kind] + np.outer(by_position[kind], self.positions[index]))
+            slopes = by_position[kind]
+            moving = 0.0 if slopes is None else np.outer(slopes, self.positions[index])
+            self._states.append(by_key[kind] + moving)
         self._states += [self._states[count // 2]] * peaks
 
     def numbers(self, state: int) -> Floats:
@@ -92,11 +98,22 @@ class Jacobians:
 
         return vector
 
-    def _slope_by_position(self, here: TubularSolution) -> Floats:
-        ahead, behind = (
-            self._at(here.section, here.position + step)(self._spec, 0.0) for step in (POSITION_STEP, -POSITION_STEP)
-        )
-        return (ahead - behind) / (2 * POSITION_STEP)
+    def _slope_by_position(self, here: TubularSolution) -> Floats | None:
+        """(numbers,) from one side where the other has another topology; None where both have."""
+
+        def at(step: float) -> Floats | None:
+            try:
+                return self._at(here.section, here.position + step)(self._spec, 0.0)
+            except DesignError:
+                return None
+
+        ahead, behind = at(POSITION_STEP), at(-POSITION_STEP)
+        if ahead is not None and behind is not None:
+            return (ahead - behind) / (2 * POSITION_STEP)
+        now = at(0.0)
+        if now is None or (ahead is None and behind is None):
+            return None
+        return (ahead - now if ahead is not None else now - behind) / POSITION_STEP
 
 
 def _unlike(field: Field) -> list[TubularSolution]:
