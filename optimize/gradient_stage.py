@@ -30,7 +30,7 @@ class GradientStage:
 
     room : to leave to the limits (relative). tolerance : relative, of the objective.
     failed : designs without figures that the searches met. ended : the point at which the latest search ended.
-    ran : the algorithms of the latest search, in order.
+    ran : the algorithms of the latest search, in order. gave_up : whether its last run ended with a failure of NLopt.
     """
 
     archive: Archive
@@ -40,6 +40,7 @@ class GradientStage:
     failed: int = 0
     ended: Point = ()
     ran: list[str] = field(default_factory=list)
+    gave_up: bool = False
     _seen: dict[Point, View] = field(default_factory=dict)
 
     def run(self, algorithm: str, start: Candidate) -> str:
@@ -48,7 +49,7 @@ class GradientStage:
         Settled: maximum / norm is the same before and after a round, and the first-order conditions hold or a round has
         gained nothing. Raises what stopped a run from within, NoSlopesError among it.
         """
-        self.ended, self.ran = self.archive.box.point(start.values), []
+        self.ended, self.ran, self.gave_up = self.archive.box.point(start.values), [], False
         reason = self._rounds(algorithm)
         if algorithm == "SLSQP" or reason == NO_START or self.first_order(self.ended):
             return reason
@@ -66,6 +67,7 @@ class GradientStage:
                 self.ran.append(algorithm)
             if ending.stopped_by is not None:
                 raise ending.stopped_by
+            self.gave_up = ending.failed
             if ending.reason == NO_START:
                 break
             reason = ending.reason

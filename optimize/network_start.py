@@ -21,6 +21,10 @@ NETWORK_CALLS = 150
 """Calls of the network for each variable in the global search for its optimum; it costs a thousandth of the FEM."""
 
 
+NEXT_TO_ZERO = 1e-2
+"""Of what a problem is about: a start's objective below this says nothing of the objective's size."""
+
+
 @dataclass(frozen=True, slots=True)
 class NetworkStart:
     """The network's own optimum, None where it finds none, and how often the network was called for it."""
@@ -54,7 +58,7 @@ def network_start(base: Spec, bounds: Box, evaluate: Evaluate, counts: Counts | 
     calls = NETWORK_CALLS * len(bounds.keys)
     archive = Archive(evaluator, bounds, objective, limits, 2 * calls, fixed=counts)
     made = candidate(base, objective, limits, bounds.keys, start)
-    merit = Merit(objective, objective_size(made))
+    merit = Merit(objective, objective_size(made, None, objective.figure, bounds))
     stages = Stages(archive, base.study.search, "COBYLA", merit, limits, 0.0, Slopes(base, bounds, merit, limits))
     for algorithm in ("DIRECT-L", "COBYLA"):
         best = archive.best
@@ -77,9 +81,17 @@ def network_start(base: Spec, bounds: Box, evaluate: Evaluate, counts: Counts | 
     return NetworkStart(archive.best, 1 + len(archive.history))
 
 
-def objective_size(*designs: Candidate) -> float:
-    """The objective's size, for scaling: the first design's that has one."""
-    for design in designs:
-        if design.objective and math.isfinite(design.objective):
-            return abs(design.objective)
-    return 1.0
+def objective_size(start: Candidate, network: Candidate | None, figure: str, bounds: Box) -> float:
+    """The objective's size, for scaling: the start's, or what the problem is about where the start's is next to zero.
+
+    That is the network's optimum, or what a walk across the range of one variable promises by the derivatives that the
+    start brings; the start's counts down to `NEXT_TO_ZERO` of the larger. 1 where nothing is known.
+    """
+    row = (start.evaluation.gradient or {}).get(figure, {})
+    spans = {key: high - low for key, low, high in zip(bounds.keys, bounds.lower, bounds.upper, strict=True)}
+    walks = [slope * spans[key] for key, slope in row.items() if key in spans]
+    known = [design.objective for design in (start, network) if design is not None and design.objective is not None]
+    sizes = [abs(size) for size in (*known, *walks) if math.isfinite(size)]
+    largest = max(sizes, default=0.0)
+    own = abs(start.objective) if start.objective is not None and math.isfinite(start.objective) else 0.0
+    return (own if own > NEXT_TO_ZERO * largest else largest) or 1.0

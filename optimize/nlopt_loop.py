@@ -28,10 +28,14 @@ GLOBAL = ("DIRECT-L", "CRS2", "ISRES")
 
 @dataclass(frozen=True, slots=True)
 class Ending:
-    """Why a run of NLopt ended: a sentence, and the exception that the function stopped it with, if it did."""
+    """Why a run of NLopt ended: a sentence, and the exception that the function stopped it with, if it did.
+
+    failed : whether NLopt gave up with one of its failure codes; what it saw until then stands all the same.
+    """
 
     reason: str
     stopped_by: BaseException | None = None
+    failed: bool = False
 
 
 def minimise(
@@ -122,12 +126,25 @@ def run(opt: Any, start: Any, stopped: Sequence[BaseException], objective: float
 
     try:
         opt.optimize(np.asarray(start, dtype=float))
-    except (nlopt.ForcedStop, nlopt.RoundoffLimited, RuntimeError, ValueError, MemoryError) as error:
+    except nlopt.RoundoffLimited:
         if not stopped:
-            return Ending(_WORDS.get(_code(opt), f"NLopt gave up: {error or type(error).__name__}."))
+            return Ending(_WORDS[-4])
+    except _failures() as error:
+        if not stopped:
+            words = " ".join(str(error).split()) or type(error).__name__
+            return Ending(_WORDS.get(_code(opt), f"NLopt gave up: {words}."), failed=True)
     if stopped:
         return Ending("The search was stopped.", stopped[0])
     return Ending(_WORDS.get(_code(opt), "The search ended.").format(objective=objective, variable=variable))
+
+
+def _failures() -> tuple[type[BaseException], ...]:
+    """What NLopt raises for its failure codes: its wrapper's own exceptions, which are none of the built-in ones."""
+    import nlopt
+
+    own = getattr(nlopt, "exception", None)  # absent from older wrappers, which raise the built-in ones
+    built_in = (nlopt.ForcedStop, RuntimeError, ValueError, MemoryError)
+    return built_in if own is None else (*built_in, own)
 
 
 def _code(opt: Any) -> int:

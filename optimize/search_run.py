@@ -63,7 +63,7 @@ class SearchRun:
                 start, network, (start,), (None,), None, None, str(error), seconds, network_calls=self.network_calls
             )
         start = self.as_candidate(done[0].evaluation, limits)
-        merit = Merit(self.objective, objective_size(start, *(network,) if network else ()))
+        merit = Merit(self.objective, objective_size(start, network, self.objective.figure, self.bounds))
         outside = 0 if self.inside else 1
         reason = remark + self.search_all(turns, first[outside:], done[outside:], limits, merit)
         best = self.best

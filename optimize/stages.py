@@ -176,6 +176,9 @@ class Stages:
         if reason == NO_START:
             return f"{reason} COBYLA searched instead. " + self.freely("COBYLA", origin)
         best = self.archive.best
+        if self.gradient.gave_up and not self.gradient.first_order(self.gradient.ended):
+            words = f"{reason} COBYLA searched on in place of {self.gradient.ran[-1]}. "
+            return words + self.freely("COBYLA", self.best_known())
         if not self.gradient.failed or best is None or self.gradient.first_order(self.archive.box.point(best.values)):
             return reason
         words = f"Designs without figures kept {self.algorithm} from going on, so COBYLA looked around its best. "

@@ -4,6 +4,7 @@ import itertools
 import math
 from dataclasses import replace
 
+import nlopt
 import pytest
 import smooth
 import toy
@@ -11,8 +12,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fluxbore.design.study import GRADIENT_ALGORITHMS, Constraint, Variable
+from fluxbore.optimize import nlopt_loop
 from fluxbore.optimize.executor import SerialExecutor, local_executor
 from fluxbore.optimize.journal import Journal
+from fluxbore.optimize.network_start import objective_size
+from fluxbore.optimize.outcome import Candidate
+from fluxbore.optimize.problem import Box
 from fluxbore.optimize.search import run_search
 from fluxbore.optimize.table import results_table
 
@@ -214,3 +219,43 @@ def test_ctrl_c_gives_back_what_there_is():
     result = search(smooth.study(), progress=interrupt)
     assert (result.ending, len(result.history)) == ("interrupted", 6)
     assert result.best is not None
+
+
+def test_a_failure_code_of_nlopt_ends_in_words_and_the_search_goes_on(monkeypatch):
+    """Catches NLopt's own exceptions, which are none of the built-in ones, and a search that dies of them."""
+    optimize = nlopt.opt.optimize
+
+    def fail(opt, x):
+        if opt.get_algorithm() == nlopt.LD_SLSQP:
+            raise nlopt.runtime_error("nlopt failure")
+        return optimize(opt, x)
+
+    monkeypatch.setattr(nlopt.opt, "optimize", fail)
+    result = search(smooth.study(constraints=(Constraint("stray_field", upper=10.0),), network="off"))
+    assert result.ending == "done"
+    assert "COBYLA searched on in place of SLSQP" in result.stop_reason
+    assert result.best.objective == pytest.approx(10.0, abs=1e-2)
+
+
+def test_an_argument_that_nlopt_refuses_is_an_ending():
+    ending = nlopt_loop.minimise(
+        "COBYLA", lambda x: (x[0], ()), 0, (2.0,), step=0.1, objective_tolerance=1e-6, variable_tolerance=1e-6, seed=1,
+        calls=10,
+    )  # fmt: skip
+    assert ending.failed
+    assert ending.stopped_by is None
+    assert ending.reason.endswith(".")
+
+
+def test_a_start_next_to_zero_does_not_set_the_scale():
+    """Catches slopes of a million that a start objective of 1e-9 makes of a smooth problem."""
+    bounds = Box((toy.X, toy.Y), (-2.0, -2.0), (2.0, 2.0))
+
+    def start(objective, slope):
+        evaluation = smooth.made({"force_constant": objective}, {"force_constant": {toy.X: slope}}, (toy.X, toy.Y))
+        return Candidate({}, evaluation, objective, ())
+
+    assert objective_size(start(1e-9, 3.0), None, "force_constant", bounds) == 12.0
+    assert objective_size(start(1e-9, 3.0), start(-20.0, 0.0), "force_constant", bounds) == 20.0
+    assert objective_size(start(5.0, 3.0), start(20.0, 0.0), "force_constant", bounds) == 5.0
+    assert objective_size(start(0.0, 0.0), None, "force_constant", bounds) == 1.0
