@@ -56,7 +56,7 @@ def test_the_paper_s_study():
     assert ring.axes[0].values == tuple(float(f"{5 * i}e-4") for i in range(24))
     assert yoke.axes[0].values == tuple(float(f"{1 + 3 * i}e-4") for i in range(9))
     assert (ring.reference, yoke.reference) == (1.5e-3, 4e-4)
-    assert found.search == Search("COBYLA", 40, 1e-4, 1)
+    assert found.search == Search("auto", 40, 1e-4, 1)
 
 
 def test_an_empty_study_is_legal_and_so_is_none():
