@@ -160,7 +160,7 @@ def _weighed(slopes: Slopes, made: Candidate, worst: float) -> tuple[list[Clash]
 
 
 def _clash(item: Check, weight: float | None = None, worst: float = 0.0) -> Clash:
-    limit, size = item.limit, abs(item.limit.limit) or 1.0
+    limit, size = item.limit, item.limit.size
     relative = max(-item.margin, 0.0) if item.margin is not None else math.inf
     alone = None if weight is None else worst * size / float(weight)
     value = math.nan if item.value is None else item.value

@@ -87,7 +87,7 @@ def optimality(slopes: Slopes, made: Candidate, beside: Candidate | None = None)
 def _price(merit: Merit, limit: Limit, made: Candidate, share: float) -> Multiplier:
     value = next(item.value for item in made.checks if item.limit == limit)
     assert value is not None
-    per_unit = _gain(merit, limit.sense) * share / (abs(limit.limit) or 1.0)
+    per_unit = _gain(merit, limit.sense) * share / limit.size
     return Multiplier(limit.subject, limit.sense, limit.limit, value, float(per_unit), float(share))
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal
 
 from fluxbore.design.study import Sweep
@@ -18,11 +18,19 @@ class Limit:
     """A constraint with its limit as a number.
 
     subject : a figure's name or a dotted key; sense : "<=" or ">="; limit : SI.
+    scale : SI, > 0, what misses and margins are measured in where the limit's own number says nothing of their size,
+    for it is zero or next to it; None elsewhere. It has no part in which limit this is.
     """
 
     subject: str
     sense: str
     limit: float
+    scale: float | None = field(default=None, compare=False)
+
+    @property
+    def size(self) -> float:
+        """What misses and margins are relative to (SI, > 0)."""
+        return self.scale or abs(self.limit) or 1.0
 
 
 @dataclass(frozen=True, slots=True)

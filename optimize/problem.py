@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from fluxbore.design.errors import DesignError, SpecError
 from fluxbore.design.keys import Value
@@ -20,6 +20,12 @@ FEASIBILITY = 1e-9
 ACTIVE = 1e-3
 """A limit with a smaller relative margin decides the design."""
 
+NEXT_TO_ZERO = 1e-2
+"""Of the start's value: a smaller limit says nothing of how large a miss is."""
+
+_USUAL = {"length": 1e-3}
+"""Dimension -> a size (SI) for limits of zero on what is zero or unknown at the start; 1 where none stands here."""
+
 Point = tuple[float, ...]
 """The variables scaled to their bounds, 0 to 1, in the order of the study."""
 
@@ -31,26 +37,52 @@ def resolve_limits(spec: Spec, start: Evaluation) -> tuple[Limit, ...]:
 
     start : the start design's evaluation, to which relative constraints refer. Where the route of ``start`` is the
     network and it cannot give the figure, the limit is left out; where the FEM cannot, DesignError.
+
+    "1.1 x start" lies above the start and "0.9 x start" below it, by a tenth of its size, whatever its sign. A limit of
+    zero has no size of its own: what it leaves is measured in the start's value, see `Limit.scale`.
     """
     limits = []
     for constraint in spec.study.constraints:
-        unit = 1.0
-        if constraint.relative_to_start:
-            value = _subject(constraint.subject, spec.values, start.performance)
-            if value is None:
-                if start.fidelity == "network":
-                    continue
-                why = " ".join(start.reasons) or "the finite elements do not give it"
-                raise DesignError(
-                    f"study.constraints cannot be held: {constraint.subject} of the start design is not known. "
-                    f"{why[:1].upper()}{why[1:]}{'' if why.endswith('.') else '.'}"
-                )
-            unit = value
-        if constraint.lower is not None:
-            limits.append(Limit(constraint.subject, ">=", unit * constraint.lower))
-        if constraint.upper is not None:
-            limits.append(Limit(constraint.subject, "<=", unit * constraint.upper))
+        value = _subject(constraint.subject, spec.values, start.performance)
+        if constraint.relative_to_start and value is None:
+            if start.fidelity == "network":
+                continue
+            why = " ".join(start.reasons) or "the finite elements do not give it"
+            raise DesignError(
+                f"study.constraints cannot be held: {constraint.subject} of the start design is not known. "
+                f"{why[:1].upper()}{why[1:]}{'' if why.endswith('.') else '.'}"
+            )
+        for sense, given in ((">=", constraint.lower), ("<=", constraint.upper)):
+            if given is not None:
+                number = given if not constraint.relative_to_start or value is None else _times(given, value)
+                limits.append(Limit(constraint.subject, sense, number, _scale(spec, constraint.subject, number, value)))
     return tuple(limits)
+
+
+def _times(factor: float, start: float) -> float:
+    return factor * start if start >= 0 else (2 - factor) * start
+
+
+def _scale(spec: Spec, subject: str, limit: float, start: float | None) -> float | None:
+    """What a limit next to zero is measured in: the start's value, where it has one that is not zero itself."""
+    if start is not None and abs(limit) <= NEXT_TO_ZERO * abs(start):
+        return abs(start) or _usual(spec, subject)
+    return None if limit else _usual(spec, subject)
+
+
+def _usual(spec: Spec, subject: str) -> float:
+    key = spec.kind.key(subject)
+    dimension = FIGURES[subject].dimension if subject in FIGURES else key.dimension if key is not None else ""
+    return _USUAL.get(dimension, 1.0)
+
+
+def show_miss(spec: Spec, item: Check) -> str:
+    """By how much a limit with a margin is missed: of its size, or in its unit where that says nothing."""
+    assert item.margin is not None
+    miss = max(-item.margin, 0.0)
+    if item.limit.scale is None:
+        return f"{miss:.2%}"
+    return show_limit(spec, replace(item.limit, limit=miss * item.limit.scale))
 
 
 def show_limit(spec: Spec, limit: Limit) -> str:
@@ -77,7 +109,7 @@ def _check(limit: Limit, values: Mapping[str, Value], performance: Performance, 
     if value is None:
         return Check(limit, None, None, fidelity == "network", False)
     room = limit.limit - value if limit.sense == "<=" else value - limit.limit
-    margin = room / (abs(limit.limit) or 1.0)
+    margin = room / limit.size
     return Check(limit, value, margin, margin >= -FEASIBILITY, abs(margin) <= ACTIVE)
 
 

@@ -72,7 +72,7 @@ class Slopes:
         slopes = []
         smoothed = []
         for limit, miss in zip(self.held, misses, strict=True):
-            unit = (1.0 if limit.sense == "<=" else -1.0) / (abs(limit.limit) or 1.0)
+            unit = (1.0 if limit.sense == "<=" else -1.0) / limit.size
             value = _smooth(made.evaluation, limit.subject, kappas)
             smoothed.append(miss if value is None else unit * (value - limit.limit))
             slopes.append(tuple(unit * slope for slope in self._row(source, limit.subject, kappas)))

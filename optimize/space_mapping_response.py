@@ -51,7 +51,7 @@ def response(made: Candidate, merit: Merit, held: Sequence[Limit], box: Box) -> 
     rows = [sign / merit.scale * _slope(made.evaluation, merit.objective.figure, box)]
     for limit in held:
         sense = 1.0 if limit.sense == "<=" else -1.0
-        rows.append(sense / (abs(limit.limit) or 1.0) * _slope(made.evaluation, limit.subject, box))
+        rows.append(sense / limit.size * _slope(made.evaluation, limit.subject, box))
     return Response(np.array([loss, *(-m for m in margins)]), np.array([loss, *figures]), np.array(rows))
 
 

@@ -10,7 +10,7 @@ from fluxbore.design.study import Objective
 from fluxbore.optimize import elastic
 from fluxbore.optimize.archive import Archive
 from fluxbore.optimize.outcome import Candidate, Conflict
-from fluxbore.optimize.problem import better, show_limit, violation
+from fluxbore.optimize.problem import better, show_limit, show_miss, violation
 from fluxbore.optimize.stages import Stages
 
 
@@ -45,7 +45,7 @@ def shortfall(base: Spec, history: Sequence[Candidate], conflict: Conflict | Non
     if math.isinf(violation(nearest)):
         return " None of its designs could be evaluated in full."
     missed = [
-        f"{item.limit.subject} {item.limit.sense} {show_limit(base, item.limit)} by {-item.margin:.2%}"
+        f"{item.limit.subject} {item.limit.sense} {show_limit(base, item.limit)} by {show_miss(base, item)}"
         for item in nearest.checks
         if not item.satisfied and item.margin is not None
     ]

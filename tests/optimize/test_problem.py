@@ -12,7 +12,7 @@ from fluxbore.design.performance import Performance
 from fluxbore.design.study import Constraint, Variable
 from fluxbore.optimize.evaluation import OK, Evaluation, failure
 from fluxbore.optimize.outcome import Limit
-from fluxbore.optimize.problem import Box, box, check, resolve_limits
+from fluxbore.optimize.problem import Box, box, check, resolve_limits, show_miss
 
 
 def evaluation(fidelity="fem", **figures):
@@ -37,6 +37,30 @@ def test_limits_get_their_numbers_from_the_start():
     assert [limit.subject for limit in resolve_limits(spec, evaluation("network"))] == ["total_mass"] * 2 + [toy.X]
     with pytest.raises(DesignError, match=r"stray_field of the start design is not known\. No convergence\.$"):
         resolve_limits(spec, failure("fem", "not converged", "No convergence."))
+
+
+def test_factors_of_a_negative_start_keep_their_sides():
+    """Catches limits that swap: 0.9 and 1.1 times -0.2 are -0.18 and -0.22, between which nothing would be."""
+    spec = toy.spec(constraints=(Constraint("voltage_margin", lower=0.9, upper=1.1, relative_to_start=True),))
+    lower, upper = resolve_limits(spec, evaluation(voltage_margin=-0.2))
+    assert (lower.sense, upper.sense) == (">=", "<=")
+    assert (lower.limit, upper.limit) == pytest.approx((-0.22, -0.18))
+
+
+@pytest.mark.parametrize("limit", [0.0, 1e-9])
+def test_a_limit_of_zero_is_measured_in_the_starts_value(limit):
+    """Catches misses of 1e-5 for millimetres, which no tolerance of a search would mind."""
+    spec = toy.spec(constraints=(Constraint("winding_room", lower=limit),))
+    (room,) = resolve_limits(spec, evaluation(winding_room=4e-4))
+    (item,) = check([room], {}, Performance(winding_room=limit - 1e-5))
+    assert item.margin == pytest.approx(-1e-5 / 4e-4)
+    assert show_miss(spec, item) == "0.01 mm"
+    (unknown,) = resolve_limits(toy.spec(constraints=(Constraint("winding_room", lower=0.0),)), evaluation())
+    assert unknown.size == 1e-3
+    (ordinary,) = resolve_limits(
+        toy.spec(constraints=(Constraint("winding_room", lower=1e-4),)), evaluation(winding_room=4e-4)
+    )
+    assert ordinary.size == 1e-4
 
 
 def test_a_limit_is_held_to_the_last_digits_that_rounding_leaves():
