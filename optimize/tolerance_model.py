@@ -100,6 +100,7 @@ def linear_model(evaluator: Evaluator, tolerances: Sequence[Tolerance], needed: 
     evaluator : of the production's design, without derivatives of its own. needed : names of figures and keys that
     must have slopes; every other figure whose derivatives the evaluation brings comes along.
     A figure that is a maximum has the derivative of its norm times maximum over norm: both rise by the same share.
+    Where either is not positive there is no such share, and the figure counts as one that is not derived.
 
     Raises DesignError where the nominal design, or a figure that is needed, cannot be evaluated.
     """
@@ -141,7 +142,9 @@ def _slopes(nominal: Evaluation, keys: Sequence[str]) -> Iterator[tuple[str, tup
         value, norm = figures.get(name), norms.get(name)
         if value is None or not all(math.isfinite(row.get(key, math.nan)) for key in keys):
             continue
-        scale = value / norm.value if norm is not None and norm.value else 1.0
+        if norm is not None and not (norm.value > 0 and value > 0):
+            continue  # no share by which both rise: differences of the maximum itself tell its slope
+        scale = value / norm.value if norm is not None else 1.0
         yield name, tuple(scale * row[key] for key in keys)
 
 

@@ -13,6 +13,7 @@ from toy import X, Y
 
 from fluxbore.design.errors import DesignError, SpecError
 from fluxbore.design.study import Constraint, Objective, Tolerance
+from fluxbore.optimize.evaluation import Norm
 from fluxbore.optimize.executor import SerialExecutor, local_executor
 from fluxbore.optimize.journal import Journal
 from fluxbore.optimize.outcome import Limit
@@ -129,6 +130,24 @@ def test_a_maximum_scatters_with_its_norm():
     assert spread.slopes[X] == pytest.approx(1.0, abs=0.005)
 
 
+@pytest.mark.parametrize(("offset", "norm"), [(-5.0, 2.0), (0.0, 0.0), (0.0, -2.0)])
+def test_a_norm_never_turns_a_slope_round(offset, norm):
+    """A maximum below zero, or a norm that is not above it: no common share, so that the figure itself is differenced.
+
+    The model is max(x, y) + offset about x = 2, y = 1, and rises with x at the rate 1 whatever its norm is.
+    """
+
+    def model(design, fidelity="fem", gradient=()):
+        made = models.largest(design, fidelity, gradient)
+        figures = replace(made.performance, stray_field=made.performance.stray_field + offset)
+        return replace(made, performance=figures, norms={"stray_field": Norm(8, norm)})
+
+    limits = [Constraint("stray_field", upper=2.3)]
+    spread = analyse(study(production(0.3), x=2.0, limits=limits, objective=None), model).figure("stray_field")
+    assert spread.slopes[X] == pytest.approx(1.0)
+    assert not spread.exact
+
+
 def test_a_model_without_derivatives_is_differenced():
     """Said in a warning, five evaluations in place of one, and for a linear model the same numbers."""
     spec = study(production(0.3, 0.6), limits=[Constraint("stray_field", upper=3.4)])
@@ -217,6 +236,15 @@ def test_what_cannot_be_built_is_a_reject_with_its_reason():
     assert "must not exceed 9 m" in reject.reason
     assert reject.count == 2000 - round(result.simulated.value * 2000)
     assert result.simulated.low <= 1 - share <= result.simulated.high
+
+
+def test_two_tolerances_that_decide_together_are_tried_again_in_every_sample():
+    """No toy has x and y above 9. Nearer x = 8.9 fewer are, nearer y = 9.1 more: half of y's tolerance does harm."""
+    result = analyse(study(production(0.3, 0.3, samples=4000), x=8.9, y=9.1))
+    found = {item.tolerance.key: item for item in result.effects}
+    assert found[X].halved == pytest.approx(1 - normal_share(-2) * normal_share(1), abs=0.01)
+    assert found[Y].halved == pytest.approx(1 - normal_share(-1) * normal_share(2), abs=0.01)
+    assert found[Y].gain < 0 < found[X].gain
 
 
 def test_samples_whose_field_fails_are_rejects_of_the_checks():
