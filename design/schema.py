@@ -10,10 +10,13 @@ from fluxbore.design.material_table import schema as material_schema
 from fluxbore.design.performance import FIGURES
 from fluxbore.design.spec import KINDS
 from fluxbore.design.study import DISTRIBUTIONS
+from fluxbore.design.study_fields import PERCENTAGE
 from fluxbore.design.study_production_reader import PRODUCTION_KEYS
 from fluxbore.design.study_search_reader import PARETO_KEYS, SEARCH_KEYS
 from fluxbore.design.study_variable_reader import movable
 from fluxbore.design.units import DIMENSIONS, example, quantity_pattern
+
+_PERCENTAGE = {"type": "string", "pattern": PERCENTAGE.pattern, "examples": ["99 %"]}
 
 
 def json_schema() -> dict[str, Any]:
@@ -66,7 +69,8 @@ def _value(key: Key) -> dict[str, Any]:
         return {"type": "string", "enum": list(key.choices)} if key.choices else _text()
     limits = {"exclusiveMinimum": key.above, "minimum": key.minimum, "maximum": key.maximum}
     kind = "integer" if key.kind == "integer" else "number"
-    return {"type": kind, **{name: limit for name, limit in limits.items() if limit is not None}}
+    value = {"type": kind, **{name: limit for name, limit in limits.items() if limit is not None}}
+    return {"anyOf": [value, _PERCENTAGE]} if key.dimension == "fraction" else value
 
 
 def _text() -> dict[str, Any]:

@@ -15,6 +15,7 @@ from typing import Any
 from fluxbore.design import materials
 from fluxbore.design.errors import MaterialError, SpecError, shown
 from fluxbore.design.keys import Key, Value
+from fluxbore.design.performance import FIGURES
 from fluxbore.design.specification import KINDS, Kind, Note, Spec, suggestion
 from fluxbore.design.study import Study
 from fluxbore.design.study_reader import read_study
@@ -154,6 +155,7 @@ def _check_study(spec: Spec) -> None:
         base.pinned(axis.key for axis in sweep.axes)
     if spec.study.production is not None:
         base.pinned(tolerance.key for tolerance in spec.study.production.tolerances)
+    _check_temperatures(spec)
     moving = {variable.key for variable in spec.study.variables}
     for i, constraint in enumerate(spec.study.constraints if moving else ()):
         name = constraint.subject
@@ -169,6 +171,24 @@ def _check_study(spec: Spec) -> None:
                     f"study.constraints.{i} cannot be met: {name} would have to be {word} {show(limit)}, "
                     f"but no variable moves it from {show(value)}."
                 )
+
+
+def _check_temperatures(spec: Spec) -> None:
+    """Nothing that only makes heat is colder than the air around it; such a limit is mostly a rise, as in 110 K."""
+    key = spec.kind.key("operating_point.ambient_temperature")
+    if key is None or key.name not in spec.values:
+        return
+    moved = next((variable for variable in spec.study.variables if variable.key == key.name), None)
+    ambient = float(spec.values[key.name]) if moved is None else moved.lower
+    for i, limit in enumerate(spec.study.constraints):
+        figure = FIGURES.get(limit.subject)
+        if figure is None or figure.dimension != key.dimension or limit.relative_to_start or limit.upper is None:
+            continue
+        if limit.upper < ambient:
+            raise SpecError(
+                f"study.constraints.{i}.upper must be at least the {key.name} {key.show(ambient)}, for "
+                f"{limit.subject} is a temperature and not a rise; got {key.show(limit.upper)}."
+            )
 
 
 def _flatten(

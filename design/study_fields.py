@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
+from decimal import Decimal
 from typing import Any
 
 from fluxbore.design.errors import SpecError, shown
@@ -10,6 +12,9 @@ from fluxbore.design.keys import Key
 from fluxbore.design.performance import FIGURES
 from fluxbore.design.specification import suggestion
 from fluxbore.design.study import Objective
+
+PERCENTAGE = re.compile(r"^ *([+-]?[0-9]{1,17}(?:\.[0-9]{1,17})?) *% *$")
+"""A fraction as people write it."""
 
 
 def tables(raw: Mapping[str, Any], name: str) -> list[dict[str, Any]]:
@@ -26,7 +31,10 @@ def allow(raw: object, where: str, allowed: Sequence[str]) -> None:
         raise SpecError(f"{where} must be a section of keys; got {shown(raw)}.")
     for key in raw:
         if key not in allowed:
-            raise SpecError(f"{where}.{key} is not a key of this specification; {where} has {', '.join(allowed)}.")
+            hint = suggestion(key, allowed)
+            raise SpecError(
+                f"{where}.{key} is not a key of this specification{hint}; {where} has {', '.join(allowed)}."
+            )
 
 
 def known_figure(name: object, where: str) -> str:
@@ -42,7 +50,8 @@ def numeric_key(raw: Mapping[str, Any], where: str, known: Mapping[str, Key], *,
     name = raw.get("key")
     key = known.get(name) if isinstance(name, str) else None
     if key is None:
-        raise SpecError(f"{where}.key must be a dotted key of this specification; got {shown(name)}.")
+        hint = suggestion(name, known) if isinstance(name, str) else ""
+        raise SpecError(f"{where}.key must be a dotted key of this specification{hint}; got {shown(name)}.")
     if key.kind == "word" or (key.kind == "integer" and not integers) or key.section == "solver":
         kinds = "a dimension, a number or a count" if integers else "a continuous quantity"
         raise SpecError(f"{where}.key must name {kinds}; got {key.name}, which is {_kind_word(key)}.")
@@ -57,7 +66,19 @@ def _kind_word(key: Key) -> str:
 
 def read_value(raw: object, key: Key, where: str) -> float:
     """A number of ``key``'s dimension that stands at ``where`` in the file; the key's limits do not apply."""
+    if key.dimension == "fraction":
+        raw = fraction(raw, where)
     return float(Key(where, key.doc, key.kind, key.dimension).read(raw))
+
+
+def fraction(raw: object, where: str) -> object:
+    """The number for a percentage in quotes, anything else but a text as it is. Raises SpecError at other texts."""
+    if not isinstance(raw, str):
+        return raw
+    match = PERCENTAGE.match(raw)
+    if match is None:
+        raise SpecError(f'{where} must be a fraction, such as 0.55 or "55 %"; got {shown(raw)}.')
+    return float(Decimal(match.group(1)).scaleb(-2))  # 99 % is the float 0.99, which 99 / 100 need not be
 
 
 def check_at(key: Key, value: float, where: str) -> None:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from decimal import Decimal
 from typing import Any
 
-from fluxbore.design.errors import SpecError
+from fluxbore.design.errors import SpecError, shown
 from fluxbore.design.keys import Key, Values
 from fluxbore.design.study import DISTRIBUTIONS, Production, Study, Tolerance
-from fluxbore.design.study_fields import allow, check_at, numeric_key, read_settings, read_value, tables
+from fluxbore.design.study_fields import allow, check_at, fraction, numeric_key, read_settings, read_value, tables
 from fluxbore.design.study_search_reader import LARGEST_SEED
 
 _DEFAULT = Production(())
@@ -38,6 +39,7 @@ PRODUCTION_KEYS = (
         "study.production.yield",
         "share of actuators that must meet every constraint",
         "number",
+        "fraction",
         above=0.0,
         maximum=HIGHEST_YIELD,
     ),
@@ -49,7 +51,7 @@ DISTRIBUTION = Key("distribution", "of the scatter", "word", choices=DISTRIBUTIO
 
 def read_production(raw: object, study: Study, known: Mapping[str, Key], values: Values) -> Production:
     """``[study.production]`` of a study whose other parts are read; ``values`` are the start design's."""
-    settings = read_settings(raw, "study.production", PRODUCTION_KEYS, ("tolerances",))
+    settings = read_settings(_with_yield(raw), "study.production", PRODUCTION_KEYS, ("tolerances",))
     assert isinstance(raw, Mapping)
     target = settings.pop("yield")
     if settings["checks"] > settings["samples"]:
@@ -79,6 +81,21 @@ def read_production(raw: object, study: Study, known: Mapping[str, Key], values:
                     f"study.{name} must be given for a search that reaches study.production.yield; got none."
                 )
     return Production(tuple(tolerances), target_yield=target, **settings)
+
+
+def _with_yield(raw: object) -> object:
+    """The table with a number for a yield that is written as a percentage; a bare 99 is told what it would be."""
+    where = "study.production.yield"
+    if not isinstance(raw, Mapping) or "yield" not in raw:
+        return raw
+    target = fraction(raw["yield"], where)
+    if isinstance(target, (int, float)) and not isinstance(target, bool) and 1 < target <= 100:
+        meant = Decimal(repr(target)).scaleb(-2).normalize()
+        raise SpecError(
+            f'{where} must be at most {HIGHEST_YIELD:g}, such as {meant:f} or "{target:g} %"; '
+            f"got {shown(raw['yield'])}."
+        )
+    return {**raw, "yield": target}
 
 
 def _tolerance(raw: Mapping[str, Any], where: str, study: Study, known: Mapping[str, Key], values: Values) -> Tolerance:

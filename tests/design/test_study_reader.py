@@ -103,6 +103,13 @@ def test_limits_relative_to_the_start():
     assert study(limit.format("0.4 mT")).constraints == (Constraint("stray_field", 4e-4, None, False),)
 
 
+def test_a_fraction_may_be_written_as_a_percentage():
+    limit = '[[study.constraints]]\nfigure = "saturation_ratio"\nlower = {}'
+    assert study(limit.format('"55 %"')).constraints == study(limit.format("0.55")).constraints
+    asked = f'{GOAL}{STRAY}upper = "start"\n[study.production]\nyield = "99 %"\n{SLIP}'
+    assert study(asked).production.target_yield == 0.99
+
+
 def test_a_count_is_a_variable_in_whole_numbers():
     found = study(f'[[study.variables]]\nkey = "{SETS}"\nlower = 6\nupper = 9').variables
     assert found == (Variable(SETS, 6.0, 9.0, None, True),)
@@ -159,6 +166,8 @@ WRONG = {
     'variables = 3': 'study.variables must be a list of tables, each headed [[study.variables]]; got 3.',
     'variables = [[]]': "study.variables must be a list of tables, each headed [[study.variables]]; got [[]].",
     VARIABLE: "study.variables.0.key must be a dotted key of this specification; got none.",
+    f'{VARIABLE}key = "actuator.mover.ring_widht"': f"study.variables.0.key must be a dotted key of this specification (did you mean {RING}?); got ",
+    f'{VARIABLE}reslution = "1 mm"': "study.variables.0.reslution is not a key of this specification (did you mean resolution?); study.variables.0 has key, lower, upper, resolution.",
     f'{VARIABLE}key = "{RING}"': f"study.variables.0.lower is missing: the variable {RING} needs both a lower and an upper bound.",
     f'{VARIABLE}key = "{RING}"\nlower = "1 mm"': f"study.variables.0.upper is missing: the variable {RING} needs both a lower and an upper bound.",
     f'{VARIABLE}key = "{RING}"\nlower = "2 mm"\nupper = "1 mm"': "study.variables.0.upper must exceed study.variables.0.lower 2 mm; got 1 mm.",
@@ -194,6 +203,8 @@ WRONG = {
     f'{STRAY}upper = "1 mT"\n{STRAY}lower = "2 mT"': "study.constraints cannot be met: stray_field would have to be at least 0.002",
     f'{BOTH}{CONSTRAINT}key = "{YOKE}"\nlower = "3 mm"': "would have to be at least 3 mm, but its bounds are 0.3 mm to 2.5 mm.",
     f'{BOTH}{CONSTRAINT}key = "actuator.shaft.length"\nlower = "300 mm"': "actuator.shaft.length would have to be at least 300 mm, but no variable moves it from 235 mm.",
+    f'{CONSTRAINT}figure = "winding_temperature"\nupper = "110 K"': "study.constraints.0.upper must be at least the operating_point.ambient_temperature 20 degC, for winding_temperature is a temperature and not a rise; got -163.15 degC.",
+    f'{CONSTRAINT}figure = "saturation_ratio"\nlower = "55"': 'study.constraints.0.lower must be a fraction, such as 0.55 or "55 %"; got "55".',
     # Sweeps.
     "[[study.sweeps]]": "study.sweeps.0.axes must be a list of at least one table; got none.",
     "[[study.sweeps]]\naxes = []": "study.sweeps.0.axes must be a list of at least one table; got [].",
@@ -253,6 +264,8 @@ WRONG = {
     "[study.production]": "study.production.tolerances must hold at least one table, [[study.production.tolerances]]; got none.",
     "[study.production]\ntolerances = 3": "study.production.tolerances must be a list of tables, each headed [[study.production.tolerances]]; got 3.",
     f"[study.production]\nyield = 1\n{SLIP}": "study.production.yield must be at most 0.9999; got 1.",
+    f"[study.production]\nyield = 99\n{SLIP}": 'study.production.yield must be at most 0.9999, such as 0.99 or "99 %"; got 99.',
+    f'[study.production]\nyield = "all"\n{SLIP}': 'study.production.yield must be a fraction, such as 0.55 or "55 %"; got "all".',
     f"[study.production]\nyield = 0\n{SLIP}": "study.production.yield must exceed 0; got 0.",
     f"[study.production]\nyield = 0.99\n{SLIP}": "study.objective must be given for a search that reaches study.production.yield; got none.",
     f"{GOAL}[study.production]\nyield = 0.99\n{SLIP}": "study.constraints must be given for a search that reaches study.production.yield; got none.",
