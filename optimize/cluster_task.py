@@ -8,11 +8,13 @@ from __future__ import annotations
 
 import contextlib
 import pickle
+import sys
 import threading
 from collections import defaultdict
+from functools import cache
 
 from fluxbore.design.errors import FluxboreError
-from fluxbore.optimize.design_key import program
+from fluxbore.optimize.design_key import program, source_hash
 from fluxbore.optimize.executor import ProcessExecutor
 
 Answer = tuple[bytes | None, str | None]
@@ -24,6 +26,37 @@ _busy: defaultdict[str, set[ProcessExecutor]] = defaultdict(set)
 _abandoned: set[str] = set()
 
 
+class OtherProgramError(FluxboreError):
+    """A worker that would give other figures. parts : its `versions`, which are compared where the sentence is read."""
+
+    def __init__(self, parts: dict[str, str]) -> None:
+        super().__init__(parts)
+        self.parts = parts
+
+    def __str__(self) -> str:
+        own = versions()
+        differing = [f"{name} {value}, here {own[name]}" for name, value in self.parts.items() if own[name] != value]
+        if not differing:
+            return "was started before its fluxbore changed; restart it"
+        return f"has {' and '.join(differing)}: make them alike and restart it"
+
+
+@cache
+def versions() -> dict[str, str]:
+    """What `program` is made of, as a person tells them apart; read once a process, as that is."""
+    import numpy
+    import scipy
+
+    import fluxbore
+
+    return {
+        "fluxbore": f"{fluxbore.__version__} of the sources {source_hash()[:8]}",
+        "numpy": numpy.__version__,
+        "scipy": scipy.__version__,
+        "Python": f"{sys.version_info.major}.{sys.version_info.minor}",
+    }
+
+
 def compute(run: str, expected: str, message: bytes, time_limit: float | None) -> Answer:
     """The answer to the task in ``message``, a pickled (function, task).
 
@@ -31,8 +64,9 @@ def compute(run: str, expected: str, message: bytes, time_limit: float | None) -
     that its journal says. time_limit : s.
     Raises FluxboreError where the programs differ or no process can be started here.
     """
+    parts = versions()
     if program() != expected:
-        raise FluxboreError("has another version of fluxbore, numpy, scipy or Python than this computer")
+        raise OtherProgramError(parts)
     with _lock:
         if run in _abandoned:
             return None, "The evaluation was abandoned."

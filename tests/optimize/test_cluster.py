@@ -2,6 +2,7 @@
 
 import contextlib
 import os
+import pickle
 import signal
 import socket
 import subprocess
@@ -17,6 +18,7 @@ from clusters import cluster, kill
 
 from fluxbore.design.errors import FluxboreError, MissingLibraryError
 from fluxbore.optimize.cluster import ClusterExecutor, executor_for
+from fluxbore.optimize.cluster_task import OtherProgramError, versions
 from fluxbore.optimize.executor import ProcessExecutor, SerialExecutor
 from fluxbore.optimize.sweep import run_sweeps
 from fluxbore.optimize.table import results_table
@@ -171,8 +173,15 @@ def test_a_worker_without_this_fluxbore_is_one_sentence(tmp_path):
 
 def test_a_worker_of_another_version_is_one_sentence(executor, monkeypatch):
     monkeypatch.setattr(executor, "_program", "of yesterday")
-    with pytest.raises(FluxboreError, match=r"^A worker of the scheduler \"tcp:.* has another version of fluxbore"):
+    with pytest.raises(FluxboreError, match=r"^A worker of the scheduler \"tcp:.* was started before its fluxbore"):
         list(executor.run(jobs.double, [1]))
+
+
+def test_another_program_says_which_part_of_it_differs():
+    """Catches a hunt through four versions; the sentence is made where it is read, after the way over the network."""
+    error = OtherProgramError({**versions(), "numpy": "1.0"})
+    said = str(pickle.loads(pickle.dumps(error)))
+    assert said == f"has numpy 1.0, here {versions()['numpy']}: make them alike and restart it"
 
 
 def test_a_scheduler_that_is_lost_or_has_no_worker_is_one_sentence(tmp_path):
