@@ -158,6 +158,21 @@ def test_a_front_shows_what_is_exchanged(spec):
     json.dumps(plain, allow_nan=False)
 
 
+def test_a_front_without_conflict_names_the_figure_that_does_not_move(spec):
+    """Catches the same sentence twice, and a reader who is not told why there is nothing to trade."""
+    first, last = candidate(1e-3, 8.5), candidate(2e-3, 7.0)
+    reason = "The objectives do not conflict: one design is the best in both, and the front is that one point."
+    point = FrontPoint(0.0, None, first, 8.5, 4e-4, "front", "Done.", 1e-8, None, 5)
+    result = ParetoResult(
+        FORCE, Objective("stray_field", False), "epsilon constraint", first, (point,), (first, last), None, None,
+        reason, 2.0, conflicting=False,
+    )  # fmt: skip
+    text = pareto_text(spec, result)
+    assert "No variable moves stray_field: it is 0.4 mT in every design of the search." in text
+    assert text.count("conflict") == 1
+    assert "No variable moves force_constant" not in text
+
+
 def tolerances() -> ToleranceResult:
     slip = Tolerance(YOKE, -2e-5, 5e-5, "uniform")
     sure = Interval(0.912, 0.905, 0.918)

@@ -127,7 +127,7 @@ def _tell(progress: Report | None, known: Mapping[Values, Row], total: int, reus
     if progress is None:
         return
     failed = sum(row["status"] != "ok" for row in known.values())
-    rate = (len(known) - reused) / max(monotonic() - begin, 1e-9) if len(known) > reused else None
+    rate = (len(known) - reused) / max(monotonic() - begin, 1e-9) if len(known) > reused + 1 else None
     left = None if rate is None else (total - len(known)) / rate
     progress(Progress("sweep", len(known), total, reused, failed, None, None, None, rate, left))
 

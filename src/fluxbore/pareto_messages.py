@@ -10,7 +10,7 @@ from fluxbore.design.spec import Spec
 from fluxbore.design.study import Objective
 from fluxbore.optimize.pareto_result import FrontPoint, ParetoResult
 from fluxbore.search_messages import candidate_plain
-from fluxbore.value_text import route, show_subject
+from fluxbore.value_text import route, short_names, show_subject
 
 
 def pareto_plain(result: ParetoResult) -> dict[str, Any]:
@@ -59,8 +59,7 @@ def pareto_text(spec: Spec, result: ParetoResult) -> str:
         f"Front of {_goal(result.objective)} against {_goal(result.against)}, {result.method}: "
         f"{len(result.history)} designs by {route(spec, 'fem')}, {cost}.",
     ]
-    if not result.conflicting:
-        lines.append("The two do not conflict: one design is the best in both.")
+    lines += _constant(result)
     rows = [_row(result, point) for point in result.points]
     rows.insert(0, [result.objective.figure, result.against.figure, "exchange", "standing", "design"])
     widths = [max(len(row[i]) for row in rows) for i in range(4)]
@@ -76,12 +75,25 @@ def pareto_text(spec: Spec, result: ParetoResult) -> str:
     return "\n".join(line.rstrip() for line in lines)
 
 
+def _constant(result: ParetoResult) -> list[str]:
+    """Where there is nothing to trade: the figure that no design of the search moved, if that is why."""
+    if result.conflicting:
+        return []
+    figures = (result.objective.figure, result.against.figure)
+    found = []
+    for figure in figures:
+        values = {getattr(made.evaluation.performance, figure) for made in result.history if made.evaluation.ok}
+        if len(values - {None}) == 1 and len(result.history) > 1:
+            value = show_figure(figure, max(values - {None}))
+            found.append(f"No variable moves {figure}: it is {value} in every design of the search.")
+    return found
+
+
 def _row(result: ParetoResult, point: FrontPoint) -> list[str]:
     if point.design is None:
         return ["-", "-", "-", point.standing, point.reason]
-    values = ", ".join(
-        f"{key.rpartition('.')[2]} {show_subject(key, value)}" for key, value in point.design.values.items()
-    )
+    short = short_names(point.design.values)
+    values = ", ".join(f"{short[key]} {show_subject(key, value)}" for key, value in point.design.values.items())
     return [
         show_figure(result.objective.figure, point.first),
         show_figure(result.against.figure, point.second),

@@ -10,7 +10,7 @@ from typing import Self
 
 from fluxbore.design.performance import show_figure
 from fluxbore.optimize.progress import Progress
-from fluxbore.value_text import show_subject
+from fluxbore.value_text import short_names, show_subject
 
 SECONDS_BETWEEN_LINES = 5.0
 """Between progress lines where stderr is a file; a terminal gets one line that is written over."""
@@ -67,7 +67,7 @@ def _line(progress: Progress) -> str:
     if progress.rate is not None:
         parts.append(_pace(progress.rate))
     if progress.seconds_left is not None and progress.done < progress.total:
-        parts.append(f"{_duration(progress.seconds_left)} left")
+        parts.append(f"{'at most ' * progress.at_most}{_duration(progress.seconds_left)} left")
     if progress.best is not None and progress.figure is not None:
         parts.append(f"best {show_figure(progress.figure, progress.best)}{_at(progress.best_values)}")
     return ", ".join(parts)
@@ -89,4 +89,5 @@ def _duration(seconds: float) -> str:
 def _at(values: Mapping[str, float] | None) -> str:
     if not values:
         return ""
-    return " at " + ", ".join(f"{key.rpartition('.')[2]} {show_subject(key, value)}" for key, value in values.items())
+    short = short_names(values)
+    return " at " + ", ".join(f"{short[key]} {show_subject(key, value)}" for key, value in values.items())

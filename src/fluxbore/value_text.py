@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from fluxbore.design.keys import Key, Value
 from fluxbore.design.performance import FIGURES, show_figure
 from fluxbore.design.rates import measure_of_key
@@ -28,6 +30,17 @@ def show_subject(subject: str, value: float, digits: int = 6) -> str:
         return show_figure(subject, value, digits)
     key = next((key for kind in KINDS.values() if (key := kind.key(subject)) is not None), None)
     return key.show(value, digits) if key is not None else f"{value:.{digits}g}"
+
+
+def short_names(keys: Iterable[str]) -> dict[str, str]:
+    """Key -> as many of its last words as tell it from the other keys: ``back_yoke.outer_diameter``."""
+    words = {key: key.split(".") for key in keys}
+    found = {}
+    for key, own in words.items():
+        endings = (own[-count:] for count in range(1, len(own)))
+        alone = (end for end in endings if sum(other[-len(end) :] == end for other in words.values()) == 1)
+        found[key] = ".".join(next(alone, own))
+    return found
 
 
 def tolerance_size(tolerance: Tolerance, key: Key) -> str:
