@@ -43,11 +43,13 @@ def speed_limit(
     """The speed (m/s) at which the voltage demand of a current (A) reaches the voltage (V, phase amplitude).
 
     The root of U^2 = (R I + k v)^2 + (x I v)^2 that is U/k without current. Below zero, R I alone exceeds U, and only a
-    motor that is dragged backwards could carry the current. None where no speed does, or there is no force.
+    motor that is dragged backwards could carry the current. Where not even that helps, for the reactance takes too much
+    at any speed, it is (U^2 - (R I)^2)/(k R I): no speed, but a measure of how far the supply is from it, which joins
+    on where the root ends and falls as R I grows. None where there is no force.
     """
     k, x, drop = 2 / 3 * force_constant, math.pi * inductance / pole_pitch * current, resistance * current
     free = voltage**2 - drop**2
     square = (k * voltage) ** 2 + x**2 * free
-    if square < 0 or k <= 0:
+    if k <= 0:
         return None
-    return free / (k * drop + math.sqrt(square))
+    return free / (k * drop + math.sqrt(max(square, 0.0)))

@@ -117,7 +117,7 @@ class Performance:
     speed_limit: float | None = _figure(
         "speed",
         DRIVE,
-        "to which the supply voltage can push the spec's current; below zero not even at rest",
+        "to which the supply voltage can push the spec's current; below zero not even at rest, and how far from it",
         signed=True,
     )
     # The magnets under the worst of no current and peak current.
@@ -142,8 +142,8 @@ class Performance:
     winding_temperature: float | None = _figure(
         "temperature",
         HEAT,
-        "mean of the winding, in steady state in still air, at the spec's current, duty and speed; not given where the "
-        "copper runs away",
+        "mean of the winding, in steady state in still air, at the spec's current, duty and speed; beyond 2000 K only "
+        "a measure of how far the copper has run away",
     )
     continuous_current: float | None = _figure(
         "current",

@@ -30,7 +30,10 @@ from fluxbore.design.materials import Conductor, Material
 from fluxbore.design.winding import copper_fill
 
 HOTTEST = 2000.0
-"""K; a winding that would be hotter has run away: its resistance grows faster than the air takes the heat."""
+"""K; a winding that would be hotter has run away: no copper is left."""
+
+FLATTEST = 0.1
+"""Of the mean conductance between the winding and the air: the least with which temperatures beyond `HOTTEST` grow."""
 
 COLDEST = 10.0
 """K; no surface is taken as colder."""
@@ -162,16 +165,25 @@ def heat_at(net: ThermalNetwork, winding: float, yoke_loss: float = 0.0, tube_lo
 
 def winding_temperature(
     net: ThermalNetwork, loss: Callable[[float], float], yoke_loss: float = 0.0, tube_loss: float = 0.0
-) -> float | None:
+) -> float:
     """Mean temperature (K) at which the winding gives off what it loses.
 
-    loss : of the winding at its mean temperature (K -> W), duty included. None where it runs away (see `HOTTEST`).
+    loss : of the winding at its mean temperature (K -> W), duty included. Above `HOTTEST` the heat balance is continued
+    along its tangent there: no temperature that anything could have, but a measure of how far the winding has run away,
+    continuous, which grows with every loss. Heat grows faster than the temperature and a conductor's loss in proportion
+    to it, so that there is one root below and none beyond where the balance at `HOTTEST` is short of heat.
     """
 
     def surplus(temperature: float) -> float:
         return heat_at(net, temperature, yoke_loss, tube_loss).winding_heat - loss(temperature)
 
-    return _root(surplus, net.ambient, HOTTEST)
+    found = _root(surplus, net.ambient, HOTTEST)
+    if found is not None:
+        return found
+    short, step = -surplus(HOTTEST), 1e-3 * HOTTEST
+    tangent = (surplus(HOTTEST + step) - surplus(HOTTEST - step)) / (2 * step)
+    mean = heat_at(net, HOTTEST).winding_heat / (HOTTEST - net.ambient)
+    return HOTTEST + short / max(tangent, FLATTEST * mean)
 
 
 def continuous_current(

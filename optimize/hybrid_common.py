@@ -187,7 +187,7 @@ def _loaded(spec: Spec, performance: Performance) -> Performance:
         performance,
         peak_thrust=thrust,
         shaft_stress=stress,
-        shaft_safety=strength / stress if strength is not None and stress > UNLOADED else None,
+        shaft_safety=strength / abs(stress) if strength is not None and abs(stress) > UNLOADED else None,
         buckling_safety=critical / thrust if critical is not None and stress > UNLOADED else None,
     )
 
@@ -211,7 +211,16 @@ def warnings(spec: Spec, performance: Performance) -> tuple[str, ...]:
             f"At this temperature {fraction:.1%} of the magnets' volume is beyond its intrinsic coercivity at no "
             "current; the figures take it as still magnetised."
         )
-    return (*found, *_thick_walls(spec, actuator), *gaps(spec, performance))
+    return (*found, *_runaway(performance), *_thick_walls(spec, actuator), *gaps(spec, performance))
+
+
+def _runaway(performance: Performance) -> list[str]:
+    if performance.winding_temperature is None or performance.winding_temperature <= thermal.HOTTEST:
+        return []
+    return [
+        f"winding_temperature is beyond {thermal.HOTTEST:g} K: at operating_point.current and operating_point.speed "
+        "the copper runs away, and the number only measures how far."
+    ]
 
 
 def _thick_walls(spec: Spec, actuator: HybridActuator) -> list[str]:

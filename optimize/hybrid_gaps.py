@@ -20,11 +20,8 @@ _DATA = {
 
 _OTHERWISE = {
     "cylinder_safety": "operating_point.pressure does not load the cylinder",
-    "shaft_safety": "nothing pushes on the shaft at operating_point.pressure and operating_point.peak_current",
+    "shaft_safety": "nothing loads the shaft at operating_point.pressure and operating_point.peak_current",
     "buckling_safety": "nothing pushes on the shaft at operating_point.pressure and operating_point.peak_current",
-    "winding_temperature": "at operating_point.current and operating_point.speed no temperature balances the losses: "
-    "the copper runs away",
-    "speed_limit": "operating_point.current needs more than operating_point.supply_voltage at any speed",
 }
 """Figure -> why it is missing although the data are there."""
 

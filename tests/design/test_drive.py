@@ -1,5 +1,6 @@
 """The drive: power's balance, phase by phase in time, and the supply's limit."""
 
+import itertools
 import math
 
 import pytest
@@ -43,8 +44,10 @@ def test_at_the_speed_limit_the_demand_is_the_supply(current: float, inductance:
     """Catches the wrong root, for motors that the supply can and cannot hold at rest."""
     voltage = phase_voltage(supply)
     limit = speed_limit(K, R, inductance, TAU, current, voltage)
-    if limit is None:
-        assert R * current > voltage
+    assert limit is not None
+    x = math.pi * inductance / TAU * current
+    if (2 / 3 * K * voltage) ** 2 + x**2 * (voltage**2 - (R * current) ** 2) < 0:
+        assert limit < 0
         return
     assert voltage_demand(K, R, inductance, TAU, current, limit) == pytest.approx(voltage, rel=1e-8)
     assert (limit < 0) == (R * current > voltage)
@@ -59,3 +62,13 @@ def test_without_current_the_limit_is_the_no_load_speed() -> None:
 def test_inductance_only_slows() -> None:
     limits = [speed_limit(K, R, inductance, TAU, 1.0, 14.0) for inductance in (0.0, 1e-3, 5e-3, 2e-2)]
     assert limits == sorted(limits, key=lambda limit: -(limit or 0.0))
+
+
+def test_beyond_every_speed_the_limit_goes_on_falling() -> None:
+    """Catches a gap, a jump, or a slope that turns where no speed is left: 20 mH, 14 V, currents up to far too many."""
+    limits = [speed_limit(K, R, 20e-3, TAU, 2.0 + i / 1000, 14.0) for i in range(4000)]
+    found = [limit for limit in limits if limit is not None]
+    assert len(found) == len(limits)
+    assert all(later < earlier for earlier, later in itertools.pairwise(found))
+    assert max(earlier - later for earlier, later in itertools.pairwise(found)) < 0.02
+    assert found[0] > 0 > found[-1]

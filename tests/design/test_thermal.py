@@ -121,13 +121,24 @@ def test_the_temperature_by_plain_iteration(net: ThermalNetwork, table_ii: Hybri
     assert 80 < kelvin - 273.15 < 110
 
 
-def test_a_winding_that_runs_away_has_no_temperature(
+def test_a_winding_that_runs_away_has_a_measure_of_it(
     net: ThermalNetwork, table_ii: HybridActuator, copper: Conductor
 ) -> None:
-    """Catches an endless search, or a number where the copper's resistance outruns the air."""
-    assert (
-        thermal.winding_temperature(net, lambda kelvin: copper_loss(resistance(table_ii, copper, kelvin), 30.0)) is None
-    )
+    """Catches an endless search, a gap at 2000 K, and a stand-in that does not grow with the current."""
+
+    def at(current: float) -> float:
+        return thermal.winding_temperature(
+            net, lambda kelvin: copper_loss(resistance(table_ii, copper, kelvin), current)
+        )
+
+    found = [at(current) for current in (2.0, 4.0, 8.0, 16.0, 32.0)]
+    assert found == sorted(found)
+    assert found[0] < thermal.HOTTEST < found[-1] < math.inf
+    low, high = 2.0, 32.0
+    while high - low > 1e-9:
+        middle = (low + high) / 2
+        low, high = (middle, high) if at(middle) < thermal.HOTTEST else (low, middle)
+    assert at(high) - at(low) < 1e-3
     assert thermal.winding_temperature(net, lambda kelvin: 0.0) == AMBIENT
 
 

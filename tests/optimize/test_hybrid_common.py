@@ -276,3 +276,12 @@ def test_the_inductance_is_the_fields() -> None:
             linkages.append(space_vector(solve_currents(section, actuator.mid_stroke, currents).flux_linkages()))
     field = abs(linkages[1] - linkages[0]) / 0.4
     assert phase_inductance(actuator) == pytest.approx(field, rel=0.1)
+
+
+def test_a_pull_stresses_the_rod_too() -> None:
+    """Catches a safety that is missing, or negative, where a vacuum outweighs the force."""
+    found = figures({"operating_point.pressure": "-0.09 MPa gauge", "operating_point.peak_current": "1 A"})
+    assert found.shaft_stress is not None
+    assert found.shaft_safety is not None
+    assert found.shaft_stress < 0 < found.shaft_safety
+    assert found.buckling_safety is None

@@ -31,7 +31,6 @@ def asked(changes: dict[str, str], *figures: str) -> tuple[Spec, Performance]:
         ({"actuator.shaft.material": "PTFE"}, "shaft_safety", "states no yield_stress"),
         ({"operating_point.pressure": "0 Pa gauge"}, "cylinder_safety", "does not load the cylinder"),
         ({"operating_point.supply_voltage": ""}, "speed_limit", "supply_voltage is not given"),
-        ({"operating_point.current": "40 A"}, "winding_temperature", "runs away"),
     ],
 )
 def test_the_reason_names_what_is_missing(changes: dict[str, str], figure: str, reason: str) -> None:
@@ -52,3 +51,8 @@ def test_the_objective_counts_too() -> None:
     spec = replace(spec, study=replace(spec.study, objective=Objective("no_load_speed", True)))
     (warning,) = warnings(spec, found)
     assert "supply_voltage" in warning
+
+
+def test_a_winding_that_runs_away_is_said() -> None:
+    (warning,) = warnings(*asked({"operating_point.current": "40 A"}))
+    assert "the copper runs away" in warning
