@@ -77,7 +77,11 @@ def optimality(slopes: Slopes, made: Candidate, beside: Candidate | None = None)
     point = slopes.box.point(made.values)
     found, left = multipliers(view, point)
     held, size = len(slopes.held), len(point)
-    prices = [_price(slopes.merit, limit, made, share) for limit, share in zip(slopes.held, found, strict=False)]
+    prices = [
+        _price(slopes.merit, limit, made, share)
+        for limit, share in zip(slopes.held, found, strict=False)
+        if share > NEGLIGIBLE
+    ]
     for j in range(size):
         prices.append(_bound(slopes, made, j, ">=", found[held + j]))
         prices.append(_bound(slopes, made, j, "<=", found[held + size + j]))

@@ -35,9 +35,11 @@ class Limit:
 
 @dataclass(frozen=True, slots=True)
 class Check:
-    """A limit held against a design. ``value`` is None where the route cannot give the figure.
+    """A limit held against a design. ``value`` is None where the route cannot give the figure, or where the part whose
+    safety is limited bears no load: that limit is satisfied.
 
-    margin : positive where the limit holds with room to spare, relative to the limit's size; active : within the
+    margin : positive where the limit holds with room to spare, relative to the limit's size, 1 where nothing bears a
+    load, None where nothing is known; active : within the
     search's tolerance of the limit.
     """
 

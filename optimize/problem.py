@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from fluxbore.design.errors import DesignError, SpecError
 from fluxbore.design.keys import Value
 from fluxbore.design.performance import FIGURES, Performance, show_figure
+from fluxbore.design.pressure_vessel import UNLOADED
 from fluxbore.design.spec import Spec
 from fluxbore.design.study import Objective
 from fluxbore.optimize.evaluation import Evaluation
@@ -20,11 +21,14 @@ FEASIBILITY = 1e-9
 ACTIVE = 1e-3
 """A limit with a smaller relative margin decides the design."""
 
-NEXT_TO_ZERO = 1e-2
+NEXT_TO_ZERO = 1e-4
 """Of the start's value: a smaller limit says nothing of how large a miss is."""
 
 _USUAL = {"length": 1e-3}
 """Dimension -> a size (SI) for limits of zero on what is zero or unknown at the start; 1 where none stands here."""
+
+_LOADS = {"cylinder_safety": "hoop_stress", "shaft_safety": "shaft_stress", "buckling_safety": "shaft_stress"}
+"""Factor of safety -> the stress (Pa) that it is held against."""
 
 Point = tuple[float, ...]
 """The variables scaled to their bounds, 0 to 1, in the order of the study."""
@@ -71,16 +75,19 @@ def _scale(spec: Spec, subject: str, limit: float, start: float | None) -> float
 
 
 def _usual(spec: Spec, subject: str) -> float:
+    return _USUAL.get(_dimension(spec, subject), 1.0)
+
+
+def _dimension(spec: Spec, subject: str) -> str:
     key = spec.kind.key(subject)
-    dimension = FIGURES[subject].dimension if subject in FIGURES else key.dimension if key is not None else ""
-    return _USUAL.get(dimension, 1.0)
+    return FIGURES[subject].dimension if subject in FIGURES else key.dimension if key is not None else ""
 
 
 def show_miss(spec: Spec, item: Check) -> str:
     """By how much a limit with a margin is missed: of its size, or in its unit where that says nothing."""
     assert item.margin is not None
     miss = max(-item.margin, 0.0)
-    if item.limit.scale is None:
+    if item.limit.scale is None or _dimension(spec, item.limit.subject) == "temperature":
         return f"{miss:.2%}"
     return show_limit(spec, replace(item.limit, limit=miss * item.limit.scale))
 
@@ -106,11 +113,26 @@ def check(
 
 def _check(limit: Limit, values: Mapping[str, Value], performance: Performance, fidelity: str) -> Check:
     value = _subject(limit.subject, values, performance)
+    if value is None and limit.sense == ">=" and _unloaded(limit.subject, performance):
+        return Check(limit, None, 1.0, True, False)
     if value is None:
         return Check(limit, None, None, fidelity == "network", False)
     room = limit.limit - value if limit.sense == "<=" else value - limit.limit
     margin = room / limit.size
     return Check(limit, value, margin, margin >= -FEASIBILITY, abs(margin) <= ACTIVE)
+
+
+def _unloaded(figure: str, performance: Performance) -> bool:
+    """Whether this is a factor of safety of a part that bears no load, so that it is above any limit.
+
+    A rod that is pulled cannot buckle.
+    """
+    if figure not in _LOADS:
+        return False
+    stress = getattr(performance, _LOADS[figure])
+    if stress is None:
+        return False
+    return bool((stress if figure == "buckling_safety" else abs(stress)) <= UNLOADED)
 
 
 def _subject(name: str, values: Mapping[str, Value], performance: Performance) -> float | None:

@@ -62,8 +62,9 @@ class Slopes:
         """
         loss = self.merit.loss(made)
         misses = self.merit.misses(made, self.held)
-        values = {item.limit: item.value for item in made.checks}
-        if not made.evaluation.ok or loss is None or any(values.get(limit) is None for limit in self.held):
+        checks = {item.limit: item for item in made.checks}
+        known = [limit in checks and checks[limit].margin is not None for limit in self.held]
+        if not made.evaluation.ok or loss is None or not all(known):
             return None
         objective = self.merit.objective
         source = made if beside is None else beside
@@ -72,6 +73,10 @@ class Slopes:
         slopes = []
         smoothed = []
         for limit, miss in zip(self.held, misses, strict=True):
+            if checks[limit].value is None:  # without a load; with one the figure comes down from infinity
+                smoothed.append(miss)
+                slopes.append((0.0,) * len(self.box.keys))
+                continue
             unit = (1.0 if limit.sense == "<=" else -1.0) / limit.size
             value = _smooth(made.evaluation, limit.subject, kappas)
             smoothed.append(miss if value is None else unit * (value - limit.limit))

@@ -43,7 +43,7 @@ def shortfall(base: Spec, history: Sequence[Candidate], conflict: Conflict | Non
         return ""
     nearest = min(history, key=violation)
     if math.isinf(violation(nearest)):
-        return " None of its designs could be evaluated in full."
+        return _without(base, history)
     missed = [
         f"{item.limit.subject} {item.limit.sense} {show_limit(base, item.limit)} by {show_miss(base, item)}"
         for item in nearest.checks
@@ -51,3 +51,29 @@ def shortfall(base: Spec, history: Sequence[Candidate], conflict: Conflict | Non
     ]
     words = f" No design met every limit; the nearest missed {' and '.join(missed)}."
     return words + (elastic.describe(base, conflict) if conflict is not None else "")
+
+
+def _without(base: Spec, history: Sequence[Candidate]) -> str:
+    """What is missing where every design lacks something: figures, or sound designs at all."""
+    sound = [made for made in history if made.evaluation.ok]
+    if not sound:
+        reasons = list(dict.fromkeys(reason for made in history for reason in made.evaluation.reasons))
+        return " None of its designs could be evaluated." + (f" The first: {reasons[0]}" if reasons else "")
+    figure = base.study.objective.figure if base.study.objective is not None else ""
+    lacking = [made for made in sound if made.objective is None]
+    if len(lacking) == len(sound):
+        return f" None of its designs gives {figure}, the objective.{_reasons(sound, [figure])}"
+    names = [item.limit.subject for made in sound for item in made.checks if item.margin is None and not item.satisfied]
+    named = list(dict.fromkeys(names))
+    return f" No design gives every figure that is limited; missing are {' and '.join(named)}.{_reasons(sound, named)}"
+
+
+def _reasons(sound: Sequence[Candidate], figures: Sequence[str]) -> str:
+    """The evaluations' own words about figures that are not given, each once."""
+    words = dict.fromkeys(
+        warning
+        for made in sound
+        for warning in made.evaluation.warnings
+        if any(warning.startswith(f"{name} is not given") for name in figures)
+    )
+    return "".join(f" {word}" for word in list(words)[:3])

@@ -113,7 +113,14 @@ def test_the_nearest_of_all_counts_is_told():
 def test_nothing_sound_is_no_conflict():
     result = search(smooth.study(constraints=APART), smooth.nothing)
     assert result.conflict is None
-    assert result.stop_reason.endswith("None of its designs could be evaluated in full.")
+    assert result.stop_reason.endswith("None of its designs could be evaluated. The first: No convergence.")
+
+
+def test_a_figure_that_no_design_gives_is_named():
+    """Catches designs that were evaluated in full and are said not to have been."""
+    result = search(smooth.study(constraints=(Constraint("speed_limit", lower=1.0),), max_evaluations=20))
+    assert all(made.evaluation.ok for made in result.history)
+    assert result.stop_reason.endswith("No design gives every figure that is limited; missing are speed_limit.")
 
 
 def test_a_key_that_follows_from_the_variables_has_its_slope():

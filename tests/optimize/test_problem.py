@@ -1,8 +1,10 @@
 """Limits with numbers, held against designs; bounds and scaling."""
 
 import math
+from dataclasses import replace
 
 import pytest
+import smooth
 import toy
 from hypothesis import given
 from hypothesis import strategies as st
@@ -11,8 +13,10 @@ from fluxbore.design.errors import DesignError, SpecError
 from fluxbore.design.performance import Performance
 from fluxbore.design.study import Constraint, Variable
 from fluxbore.optimize.evaluation import OK, Evaluation, failure
+from fluxbore.optimize.executor import SerialExecutor
 from fluxbore.optimize.outcome import Limit
 from fluxbore.optimize.problem import Box, box, check, resolve_limits, show_miss
+from fluxbore.optimize.search import run_search
 
 
 def evaluation(fidelity="fem", **figures):
@@ -82,6 +86,33 @@ def test_a_figure_that_is_not_known_counts_against_the_finite_elements_only():
     (skipped,) = check(limits, {}, Performance(), "network")
     assert (skipped.satisfied, skipped.value, skipped.margin, skipped.active) == (True, None, None, False)
     assert not check(limits, {}, Performance(stray_field=math.nan), "fem")[0].satisfied
+
+
+@pytest.mark.parametrize("figure", ["cylinder_safety", "shaft_safety", "buckling_safety"])
+def test_no_load_meets_every_limit_on_safety(figure):
+    """Catches a cylinder without pressure that misses its factor of safety, and a rod that buckles under a pull."""
+    (limit, above) = (Limit(figure, ">=", 3.0), Limit(figure, "<=", 9.0))
+    stress = "hoop_stress" if figure == "cylinder_safety" else "shaft_stress"
+    held, missed = check([limit, above], {}, Performance(**{stress: 0.0}))
+    assert (held.satisfied, held.value, held.active) == (True, None, False)
+    assert not missed.satisfied
+    assert not check([limit], {}, Performance(**{stress: 1e6}))[0].satisfied  # such as a yield stress that is missing
+    assert check([limit], {}, Performance(**{stress: -1e6}))[0].satisfied == (figure == "buckling_safety")
+    assert not check([limit], {}, Performance())[0].satisfied
+
+
+def test_a_search_under_a_safety_without_load_is_a_search_by_gradients():
+    """Catches a limit without a value that robs the others of their multipliers."""
+
+    def unloaded(design, fidelity="fem", gradient=()):
+        made = smooth.rosenbrock(design, fidelity, gradient)
+        return replace(made, performance=replace(made.performance, hoop_stress=0.0))
+
+    limits = (Constraint("stray_field", upper=1.0), Constraint("cylinder_safety", lower=3.0))
+    result = run_search(smooth.study(constraints=limits), None, SerialExecutor(), None, unloaded, True)
+    assert result.algorithm == "SLSQP"
+    assert result.best.objective == pytest.approx(9.956046925, rel=1e-4)  # as without it, see test_search
+    assert [item.subject for item in result.optimality.multipliers] == ["stray_field"]
 
 
 def test_limits_on_variables_narrow_their_bounds():
