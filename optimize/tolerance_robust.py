@@ -36,8 +36,10 @@ def run_robust(
     """Look for the best design of which the share ``study.production.yield`` meets every constraint of the study.
 
     A round is a search and the tolerance analysis of the design it chose. Samples are computed in full only for a
-    design that reaches the yield by the linear model; where they then say less, the next round backs off further.
-    What ends a search does not lose the rounds before it.
+    design that reaches the yield by the linear model; where they then say less, the next round backs off further. A
+    round that overshoots the yield by more than its interval's width has given too much of the objective away, its
+    limits having been backed off by another design's slopes: the next goes on from its own. What ends a search does not
+    lose the rounds before it.
 
     Raises SpecError where the study asks for no yield, or as `run_search` and `run_tolerance` do before a first round.
     """
@@ -53,13 +55,15 @@ def run_robust(
         last = made[-1]
         assert last.production is not None
         limits = backed_off(study_limits, last.production, target)
+        if _reaches(last, target) and not _looser(limits, last.limits):
+            break
         try:
             search = run_search(_next(spec, last, limits), journal, executor, progress, evaluate)
         except FluxboreError as error:
             reason = f"The limits backed off for a yield of {target:.2%} leave no design. {error}"
             break
         made.append(_round(spec, study_limits, limits, search, journal, executor, progress, evaluate))
-    reason = reason or _ending(made[-1], target) or f"The yield of {target:.2%} was not reached in {rounds} rounds."
+    reason = reason or f"The yield of {target:.2%} was not reached in {rounds} rounds."
     return _result(spec, target, made, reason)
 
 
@@ -115,12 +119,28 @@ def _ending(last: RobustRound, target: float) -> str:
     if last.production is None:
         return last.reason
     found = last.production.best_estimate
-    if found.value < target:
-        return ""
-    how = "the linear model, corrected by samples computed in full" if last.production.checked else "the linear model"
+    return _arrival(last.production, target) if 0 <= found.value - target <= found.high - found.low else ""
+
+
+def _arrival(production: ToleranceResult, target: float) -> str:
+    """The sentence of a round that reaches the yield."""
+    found = production.best_estimate
+    how = "the linear model, corrected by samples computed in full" if production.checked else "the linear model"
     return (
         f"The yield reached {found.value:.2%} ({found.low:.2%} to {found.high:.2%}) by {how}; asked for {target:.2%}."
     )
+
+
+def _reaches(item: RobustRound, target: float) -> bool:
+    return item.production is not None and item.production.best_estimate.value >= target
+
+
+def _looser(limits: Sequence[Limit], before: Sequence[Limit]) -> bool:
+    """Whether one of the limits leaves the search more room than it had before, beyond rounding."""
+    gained = (
+        (new.limit - old.limit) * (1 if new.sense == "<=" else -1) for new, old in zip(limits, before, strict=True)
+    )
+    return any(room > 1e-9 * new.size for room, new in zip(gained, limits, strict=True))
 
 
 def _next(spec: Spec, last: RobustRound, limits: Sequence[Limit]) -> Spec:
@@ -143,19 +163,25 @@ def _result(spec: Spec, target: float, made: Sequence[RobustRound], reason: str)
         """Reaching the target comes first; then the objective among those that do, the yield among the others."""
         item = made[index]
         found = item.production.best_estimate.value if item.production is not None else -1.0
-        if found >= target and item.objective is not None:
+        if _reaches(item, target) and item.objective is not None:
             return True, -sign * item.objective
         return False, found
 
     designs = [index for index, item in enumerate(made) if item.search.chosen is not None]
     chosen = max(designs, key=worth) if designs else None
     begin = made[0].objective
+    reached = chosen is not None and worth(chosen)[0]
+    if chosen is not None and reached:
+        best = made[chosen].production
+        assert best is not None
+        # a later round that did not end as it should does not undo the arrival, but an interrupted search is said
+        reason = _arrival(best, target) if made[-1].search.ending == "done" else reason
     end = None if chosen is None else made[chosen].objective
     return RobustResult(
         target=target,
         rounds=tuple(made),
         chosen=chosen,
-        reached=chosen is not None and worth(chosen)[0],
+        reached=reached,
         price=None if begin is None or end is None else sign * (end - begin),
         stop_reason=reason,
     )

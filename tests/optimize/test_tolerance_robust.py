@@ -106,6 +106,32 @@ def test_the_search_reaches_its_yield_and_names_the_price():
     assert 0 < result.price < 1
 
 
+def test_a_round_that_overshoots_gives_back_what_it_gave_away():
+    """x^3 <= 4 at x = 1.59 scatters by more than further in: its slopes back off to 98 % where 95 % is asked for.
+
+    The exact answer has x^3 = 4 where x is 1.645 standard deviations, of 0.1, further out.
+    """
+    result = robust(hill_study(0.95, limit=4.0, samples=4000), models.cubic)
+    second, best = result.rounds[1], result.best
+    assert second.production.best_estimate.value > 0.975
+    assert result.reached
+    assert 0.95 <= best.production.best_estimate.value < 0.965
+    assert best.objective == max(
+        item.objective for item in result.rounds if item.production.best_estimate.value >= 0.95
+    )
+    exact = 10 - (2 - (4 ** (1 / 3) - 0.1645)) ** 2
+    assert exact - best.objective < 0.35 * (exact - second.objective)
+    assert f"The yield reached {best.production.best_estimate.value:.2%}" in result.stop_reason
+
+
+def test_a_later_round_that_falls_short_does_not_undo_an_earlier_one():
+    """The third round of the same search is short of 95 %; ended there, the second one is the answer, and reaches."""
+    result = run_robust(hill_study(0.95, limit=4.0, samples=4000), None, SerialExecutor(), None, models.cubic, rounds=3)
+    assert result.rounds[2].production.best_estimate.value < 0.95
+    assert (result.chosen, result.reached) == (1, True)
+    assert "The yield reached 98" in result.stop_reason
+
+
 def test_a_smaller_tolerance_makes_the_yield_cheaper():
     wide, narrow = robust(hill_study(0.95, width=0.3)), robust(hill_study(0.95, width=0.1))
     assert wide.reached

@@ -2,6 +2,7 @@
 
 import math
 import threading
+from dataclasses import replace
 
 import toy
 from toy import X, Y
@@ -61,6 +62,14 @@ def hill(design, fidelity="fem", gradient=()):
         "stray_field": {X: 1 + 0.2 * x, Y: 1.0},
     }
     return evaluation(figures, rows, gradient, fidelity=fidelity)
+
+
+def cubic(design, fidelity="fem", gradient=()):
+    """The force of `hill`, stray field x^3: what it scatters by grows with x."""
+    x = design.number(X)
+    made = hill(design, fidelity, gradient)
+    rows = {**made.gradient, "stray_field": {X: 3 * x * x, Y: 0.0}} if made.gradient else None
+    return replace(made, performance=replace(made.performance, stray_field=x**3), gradient=rows)
 
 
 def hill_study(target=0.95, *, limit=2.0, checks=0, width=0.3, samples=2000, floor=None):
