@@ -19,12 +19,15 @@ from fluxbore.optimize.tolerance_result import (
     Interval,
     Reject,
     Requirement,
+    RobustResult,
+    RobustRound,
     ToleranceEffect,
     ToleranceResult,
 )
+from fluxbore.optimize.verdict import shortfall
 from fluxbore.pareto_messages import pareto_plain, pareto_text
 from fluxbore.plain_values import finite
-from fluxbore.search_messages import search_plain, search_text
+from fluxbore.search_messages import robust_design_text, search_plain, search_text
 from fluxbore.tolerance_messages import tolerance_plain, tolerance_text
 
 RING, YOKE = "actuator.mover.ring_width", "actuator.back_yoke.thickness"
@@ -83,13 +86,9 @@ def test_a_conflict_says_who_clashes_and_by_how_much(spec):
     lines = conflict_lines(spec, conflict)
     assert lines[0].endswith("misses the worst of them by 12.5 %:")
     assert said(lines, "stray_field") == (
-        "stray_field at most 0.4 mT: found 0.45 mT, missed by 0.05 mT (12.5 %), 60 % of the conflict, "
-        "alone it would have to give way by 0.08 mT"
+        "stray_field at most 0.4 mT: found 0.45 mT, missed by 0.05 mT (12.5 %), weight 60 %, alone 0.08 mT would do"
     )
-    assert (
-        said(lines, RING)
-        == f"{RING} at most 2 mm, its own bound: found 2 mm, alone it would have to give way by 0.3 mm"
-    )
+    assert said(lines, RING) == f"{RING} at most 2 mm, its own bound: found 2 mm, alone 0.3 mm would do"
     assert lines[0].startswith("These limits exclude one another; ")
     unsettled = conflict_lines(spec, replace(conflict, settled=False))[0]
     assert unsettled == (
@@ -124,6 +123,48 @@ def test_the_price_of_rounding_is_told(spec):
     assert plain["rounded"]["feasible"] is False
     assert plain["chosen"]["objective"] == 8.5
     assert plain["optimality"] is None
+
+
+def test_what_is_said_belongs_to_a_design(spec):
+    """Catches limits of the rounded design beside multipliers of the other one without a word on which is which."""
+    start, best, rounded = candidate(-1e-14, 8.0), candidate(1.234e-3, 8.5), candidate(1.25e-3, 8.33)
+    result = SearchResult(
+        start, None, (start, best, rounded), (0, 1, 1), best, rounded, "It converged.", 3.0,
+        optimality=Optimality(1e-5, ()),
+    )  # fmt: skip
+    text = search_text(spec, result)
+    assert f"{RING}: 0 mm -> 1.25 mm (1.234 mm before rounding)" in text
+    assert "Limits at the rounded design:\n  stray_field <= 0.42 mT: 0.4 mT, met" in text
+    assert "At the best design before rounding:\nKarush" in text
+    plain = search_text(spec, replace(result, rounded=None))
+    assert f"{RING}: 0 mm -> 1.234 mm\n" in plain
+    assert "Limits at this design:" in plain
+    assert "At this design:\nKarush" in plain
+
+
+def test_a_missed_limit_is_told_once(spec):
+    start = candidate(1e-3, 8.0, held=False)
+    conflict = Conflict({RING: 1e-3}, 0.1, (Clash("stray_field", "<=", 4e-4, 4.4e-4, 4e-5, 0.1),))
+    reason = "The search converged." + shortfall(spec, [start], conflict)
+    assert "stray_field" in reason
+    result = SearchResult(start, None, (start,), (None,), None, None, reason, 3.0, conflict=conflict)
+    assert search_text(spec, result).count("stray_field") == 1
+    assert search_plain(result)["stop_reason"] == reason
+
+
+def test_a_robust_search_shows_its_design(spec):
+    """Catches a yield without the dimensions that have it."""
+    start, best = candidate(1e-3, 8.0), candidate(1.5e-3, 8.4)
+    search = SearchResult(
+        start, None, (start, best), (0, 1), best, None, "The search converged.", 3.0, optimality=Optimality(1e-5, ())
+    )
+    result = RobustResult(0.9, (RobustRound((), search, tolerances(), 8.4),), 0, True, 0.0, "Reached.")
+    assert robust_design_text(spec, result).splitlines() == [
+        "Design of round 1:",
+        f"  {RING}: 1 mm -> 1.5 mm",
+        "  The search converged. Karush-Kuhn-Tucker residual: 1e-05.",
+    ]
+    assert robust_design_text(spec, replace(result, chosen=None)) == ""
 
 
 def test_an_infeasible_search_prints_its_conflict(spec):

@@ -9,7 +9,7 @@ from fluxbore.design_result import DesignResult
 from fluxbore.messages import evaluation_text
 from fluxbore.optimize.evaluation import to_plain
 from fluxbore.pareto_messages import pareto_plain, pareto_text
-from fluxbore.search_messages import search_plain, search_text
+from fluxbore.search_messages import robust_design_text, search_plain, search_text
 from fluxbore.tolerance_messages import robust_plain, robust_text, tolerance_plain, tolerance_text
 
 
@@ -38,7 +38,7 @@ def design_text(spec: Spec, result: DesignResult) -> str:
     if result.front is not None:
         parts.append(pareto_text(spec, result.front))
     if result.robust is not None:
-        parts.append(robust_text(spec, result.robust))
+        parts += filter(None, [robust_text(spec, result.robust), robust_design_text(spec, result.robust)])
     elif result.tolerance is not None:
         parts.append(tolerance_text(spec, result.tolerance))
     told = search is not None and search.chosen is None

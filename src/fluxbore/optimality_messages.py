@@ -54,6 +54,7 @@ def _percent(share: float) -> str:
 def conflict_lines(spec: Spec, found: Conflict) -> list[str]:
     """What keeps the least infeasible design from being feasible, by how much, and what would settle it.
 
+    weight : the limit's share of the conflict. alone : what it would have to give way by, if nothing else did.
     That limits exclude one another is said only where no small step betters the worst of them.
     """
     several = len(found.clashes) > 1
@@ -72,9 +73,9 @@ def conflict_lines(spec: Spec, found: Conflict) -> list[str]:
         if item.missed > 0:
             parts.append(f"missed by {unit.show(item.missed)} ({_percent(item.relative)})")
         if item.weight is not None and not item.bound:  # a bound's is on another scale
-            parts.append(f"{100 * item.weight:.3g} % of the conflict")
+            parts.append(f"weight {100 * item.weight:.3g} %")
         if item.alone is not None and item.alone > 0:
-            parts.append(f"alone it would have to give way by {unit.show(item.alone)}")
+            parts.append(f"alone {unit.show(item.alone)} would do")
         lines.append(f"  {_limit(item)}: {', '.join(parts)}")
     where = ", ".join(f"{key} {show_subject(key, value)}" for key, value in found.values.items())
     return [*lines, f"  there: {where}"]

@@ -1,4 +1,4 @@
-"""What the command line says of a search: plain values for ``--json``, and start and result side by side."""
+"""What the command line says of searches: plain values for ``--json``, and start and result side by side."""
 
 from __future__ import annotations
 
@@ -11,7 +11,8 @@ from fluxbore.design.spec import Spec
 from fluxbore.optimality_messages import conflict_lines, optimality_lines
 from fluxbore.optimize.evaluation import to_plain
 from fluxbore.optimize.outcome import Candidate, Check, SearchResult
-from fluxbore.value_text import route, show_key, show_subject
+from fluxbore.optimize.tolerance_result import RobustResult
+from fluxbore.value_text import route, show_subject, show_variable
 
 TOLD = ("force_constant", "motor_constant", "stray_field", "yoke_flux_density", "moving_mass", "total_mass")
 """Figures that are told of any search, besides those that it is about."""
@@ -89,33 +90,54 @@ def search_text(spec: Spec, result: SearchResult) -> str:
     """Start and chosen design side by side, and why the search ended."""
     cost = f"{result.reused} of them from the journal" if result.replayed else f"in {result.seconds:.0f} s"
     lines = [
-        result.stop_reason,
+        _why(result),
         f"Search{_algorithm(result)}: {len(result.history)} designs by {route(spec, 'fem')}{_network(result)}, {cost}.",
     ]
     lines += _failures(result)
     chosen = result.chosen
     if chosen is None:
-        conflict = conflict_lines(spec, result.conflict) if result.conflict is not None else []
-        return "\n".join([*lines, "No feasible design was found.", *conflict])
+        missed = conflict_lines(spec, result.conflict) if result.conflict is not None else []
+        return "\n".join([*lines, "No feasible design was found.", *missed])
     if dict(chosen.values) == dict(result.start.values):
         lines.append("Nothing better than the start was found.")
     lines.append("")
-    for key, value in chosen.values.items():
-        lines.append(f"{key}: {show_key(spec, key, result.start.values[key])} -> {show_key(spec, key, value)}")
+    lines += variable_lines(spec, result.start, result)
     limited = [check.limit.subject for check in chosen.checks if check.limit.subject in FIGURES]
     goal = [spec.study.objective.figure] if spec.study.objective is not None else []
     for name in dict.fromkeys([*goal, *limited, *TOLD]):
         before, after = (getattr(item.evaluation.performance, name) for item in (result.start, chosen))
         if before is not None or after is not None:
             lines.append(f"{name}: {show_figure(name, before)} -> {show_figure(name, after)}")
+    if chosen.checks:
+        lines.append(f"Limits at {'the rounded design' if chosen is result.rounded else 'this design'}:")
     for check in chosen.checks:
-        state = "active" if check.active else "held"
+        state = "active" if check.active else "met"
         found = show_subject(check.limit.subject, check.value) if check.value is not None else "no value"
-        lines.append(f"{_limit(check)}: {found}, {state}")
+        lines.append(f"  {_limit(check)}: {found}, {state}")
     lines += _rounding(spec, result)
     if result.optimality is not None and spec.study.objective is not None:
-        lines += ["", *optimality_lines(spec, spec.study.objective, result.optimality)]
+        lines += ["", f"At {'the best design before rounding' if chosen is result.rounded else 'this design'}:"]
+        lines += optimality_lines(spec, spec.study.objective, result.optimality)
     return "\n".join(lines)
+
+
+def _why(result: SearchResult) -> str:
+    """Why the search ended; what no design met is left to the list of the conflict, where there is one."""
+    if result.chosen is not None or result.conflict is None or not result.conflict.clashes:
+        return result.stop_reason
+    return result.stop_reason.partition(" No design met every limit; ")[0]
+
+
+def variable_lines(spec: Spec, start: Candidate, result: SearchResult) -> list[str]:
+    """The variables from the start to the chosen design, with the values before rounding beside those it moved."""
+    chosen, best = result.chosen, result.best
+    lines = []
+    for key, value in chosen.values.items() if chosen is not None else ():
+        before = best.values[key] if best is not None else value
+        unrounded = f" ({show_variable(spec, key, before)} before rounding)" if before != value else ""
+        first, last = (show_variable(spec, key, number) for number in (start.values[key], value))
+        lines.append(f"{key}: {first} -> {last}{unrounded}")
+    return lines
 
 
 def _algorithm(result: SearchResult) -> str:
@@ -142,3 +164,17 @@ def _rounding(spec: Spec, result: SearchResult) -> list[str]:
     then = f"{show_figure(figure, before)} -> {show_figure(figure, after)}"
     share = f" ({100 * (after / before - 1):+.2g} %)" if before else ""
     return ["", f"Rounded to the workshop's steps: {figure} {then}{share}"]
+
+
+def robust_design_text(spec: Spec, result: RobustResult) -> str:
+    """The variables from the start to the design, and how its search ended; empty where there is no design."""
+    best = result.best
+    if best is None or result.chosen is None or best.search.chosen is None:
+        return ""
+    start, found = result.rounds[0].search.start, best.search
+    residual = ""
+    if found.optimality is not None:
+        where = " before rounding" if found.chosen is found.rounded else ""
+        residual = f" Karush-Kuhn-Tucker residual{where}: {found.optimality.residual:.2g}."
+    lines = [*variable_lines(spec, start, found), f"{found.stop_reason}{residual}"]
+    return "\n".join([f"Design of round {result.chosen + 1}:", *(f"  {line}" for line in lines)])

@@ -130,6 +130,7 @@ def _tolerance(options: argparse.Namespace) -> Answer:
 def _robust(options: argparse.Namespace) -> Answer:
     from fluxbore.api import robust
     from fluxbore.progress_bar import Bar
+    from fluxbore.search_messages import robust_design_text
     from fluxbore.tolerance_messages import robust_plain, robust_text
 
     spec = read_spec(options)
@@ -137,7 +138,9 @@ def _robust(options: argparse.Namespace) -> Answer:
         result = robust(spec, options.output, progress=bar.show, **_run_options(options))
     interrupted = result.rounds[-1].search.ending == "interrupted"
     status = INTERRUPTED if interrupted else DONE if result.reached else NOT_VALID
-    return Answer(status, robust_plain(result) if options.json else robust_text(spec, result))
+    if options.json:
+        return Answer(status, robust_plain(result))
+    return Answer(status, "\n\n".join(filter(None, [robust_text(spec, result), robust_design_text(spec, result)])))
 
 
 def _report(options: argparse.Namespace) -> Answer:

@@ -10,6 +10,9 @@ from fluxbore.design.rates import measure_of_key
 from fluxbore.design.spec import KINDS, Spec
 from fluxbore.design.study import Tolerance
 
+NOISE = 1e-9
+"""Of a scale; what is smaller is zero that was computed."""
+
 
 def route(spec: Spec, fidelity: str) -> str:
     """What computed the figures, in words."""
@@ -30,6 +33,13 @@ def show_subject(subject: str, value: float, digits: int = 6) -> str:
         return show_figure(subject, value, digits)
     key = next((key for kind in KINDS.values() if (key := kind.key(subject)) is not None), None)
     return key.show(value, digits) if key is not None else f"{value:.{digits}g}"
+
+
+def show_variable(spec: Spec, name: str, value: float) -> str:
+    """A variable's value in its preferred unit; rounding's noise about zero is zero."""
+    own = next((variable for variable in spec.study.variables if variable.key == name), None)
+    noise = NOISE * (own.upper - own.lower) if own is not None else 0.0
+    return show_key(spec, name, 0.0 if abs(value) < noise else value)
 
 
 def short_names(keys: Iterable[str]) -> dict[str, str]:
