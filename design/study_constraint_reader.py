@@ -14,9 +14,6 @@ from fluxbore.design.study import Constraint, Variable
 from fluxbore.design.study_fields import allow, known_figure, loose, numeric_key, read_value
 from fluxbore.design.units import DIMENSIONS
 
-_SIGNED = ("pneumatic_force_advance", "pneumatic_force_retract")
-"""The figures that can be negative: under a vacuum the air pulls."""
-
 _FACTOR = re.compile(r"^(?:([0-9.eE+-]+)\s*x\s*)?start$")
 
 
@@ -52,7 +49,7 @@ def read_constraint(raw: Mapping[str, Any], where: str, known: Mapping[str, Key]
         raise SpecError(
             f"{where} cannot be met: {key.name} would have to be at least {show(lower)} and at most {show(upper)}."
         )
-    if upper is not None and upper < 0 and key.name in FIGURES and key.name not in _SIGNED:
+    if upper is not None and upper < 0 and key.name in FIGURES and not FIGURES[key.name].signed:
         raise SpecError(f"{where}.upper must be at least zero, for {key.name} always is; got {key.show(upper)}.")
     return Constraint(key.name, upper, lower, relative[0])
 

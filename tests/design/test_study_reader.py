@@ -193,6 +193,7 @@ WRONG = {
     f"{STRAY}upper = 1": "study.constraints.0.upper must be a flux density",
     f'{STRAY}upper = "1 mm"': 'with the unit "mm".',
     f'{STRAY}upper = "-1 T"': "study.constraints.0.upper must be at least zero, for stray_field always is; got -1 T.",
+    f'{CONSTRAINT}figure = "back_emf"\nupper = "-1 V"': "study.constraints.0.upper must be at least zero, for back_emf always is; got -1 V.",
     f'{STRAY}upper = "0 x start"': 'got the factor "0".',
     f'{STRAY}upper = "1 mT"\nlower = "2 mT"': "stray_field would have to be at least 0.002 T and at most 0.001 T.",
     f'{STRAY}upper = "start"\nlower = "2 x start"': "stray_field would have to be at least 2 x start and at most 1 x start.",
@@ -292,3 +293,12 @@ WRONG = {
 def test_a_study_that_makes_no_sense(lines):
     """Catches a traceback, a study that runs for hours before it fails, and a sentence that hides the key."""
     assert WRONG[lines] in refused(lines)
+
+
+@pytest.mark.parametrize(
+    ("figure", "upper"),
+    [("bore_dilation", "-1 um"), ("shaft_stress", "-1 MPa"), ("peak_force", "-1 N"), ("winding_room", "-1 mm")],
+)
+def test_figures_that_can_be_negative_may_have_negative_limits(figure, upper):
+    """Catches a bore that is pressed inwards, or a rod that is pulled, and no limit on it."""
+    assert study(f'{CONSTRAINT}figure = "{figure}"\nupper = "{upper}"').constraints[0].upper < 0
