@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from fluxbore.design.errors import DesignError, MaterialError, SpecError
 from fluxbore.design.spec import Spec
-from fluxbore.optimize import coils_figures, hybrid_figures
+from fluxbore.optimize import coils_figures, hybrid_figures, hybrid_gaps
 from fluxbore.optimize.evaluation import FAILED, INVALID, Evaluation, Fidelity, failure
 
 
@@ -16,16 +16,18 @@ class Model:
     """How one kind of actuator is evaluated, route by route; both may raise DesignError or MaterialError.
 
     gradients : whether evaluations by FEM can bring derivatives along, by the dotted keys that are asked for.
+    never : (specification, figure) -> why no design of its study has the figure, None where one may.
     """
 
     network: Callable[[Spec, Sequence[str]], Evaluation]
     fem: Callable[[Spec, Sequence[str]], Evaluation]
     gradients: bool = False
+    never: Callable[[Spec, str], str | None] = lambda spec, figure: None
 
 
 MODELS: dict[str, Model] = {
     "coils": Model(coils_figures.by_network, coils_figures.by_fem, gradients=True),
-    "hybrid": Model(hybrid_figures.by_network, hybrid_figures.by_fem, gradients=True),
+    "hybrid": Model(hybrid_figures.by_network, hybrid_figures.by_fem, gradients=True, never=hybrid_gaps.never),
 }
 """The model of every kind of actuator, by the kind's name."""
 

@@ -27,6 +27,18 @@ _OTHERWISE = {
 
 _SUPPLY = ("voltage_margin", "no_load_speed", "speed_limit")
 
+_PEAK = ("peak_force", "saturation_ratio", "peak_demagnetised_fraction")
+
+_OF_COILS = (
+    "stored_energy",
+    "central_flux_density",
+    "stray_flux_density",
+    "winding_flux_density",
+    "quench_load",
+    "joule_loss",
+    "merit",
+)
+
 
 def gaps(spec: Spec, performance: Performance) -> tuple[str, ...]:
     """A sentence for each figure of the study's constraints and objective that is missing for a known reason."""
@@ -38,13 +50,33 @@ def gaps(spec: Spec, performance: Performance) -> tuple[str, ...]:
     return tuple(f"{name} is not given: {reason}." for name in missing if (reason := _reason(spec, name)) is not None)
 
 
+def never(spec: Spec, figure: str) -> str | None:
+    """Why no design of the specification's study has this figure, as far as that is known without a field.
+
+    None where a design may have it. Materials cannot vary; what a variable moves is given.
+    """
+    moved = {variable.key for variable in spec.study.variables}
+    if figure in _OF_COILS:
+        return "only coils have it"
+    for figures, key in ((_PEAK, "operating_point.peak_current"), (_SUPPLY, "operating_point.supply_voltage")):
+        if figure in figures and key in moved:
+            return None
+    return _lacking(spec, figure)
+
+
 def _reason(spec: Spec, figure: str) -> str | None:
+    return _lacking(spec, figure) or _OTHERWISE.get(figure)
+
+
+def _lacking(spec: Spec, figure: str) -> str | None:
     if figure in _DATA:
         key, data = _DATA[figure]
         material = lookup(spec.word(key), key, spec.materials, Material)
         lacking = [name for name in data if getattr(material, name, None) is None]
         if lacking:
             return f'{key} "{material.name}" states no {" and no ".join(lacking)}'
+    if figure in _PEAK and "operating_point.peak_current" not in spec.given:
+        return "operating_point.peak_current is not given"
     if figure in _SUPPLY and "operating_point.supply_voltage" not in spec.values:
         return "operating_point.supply_voltage is not given"
-    return _OTHERWISE.get(figure)
+    return None

@@ -93,6 +93,7 @@ def check_study(spec: Spec) -> None:
     base = spec.for_study()
     _bounds(base)
     combinations(base, _known_limits(base))
+    _check_objectives(base)
     moving = {variable.key for variable in base.study.variables}
     for item in check(_known_limits(base), base.values, Performance(), "network") if moving else ():
         name = item.limit.subject
@@ -103,6 +104,18 @@ def check_study(spec: Spec) -> None:
             f"study.constraints cannot be met: {name} would have to be {word} {show_limit(base, item.limit)}, but no "
             f"variable moves it from {base.kind.known(name).show(base.number(name))}."
         )
+
+
+def _check_objectives(base: Spec) -> None:
+    """Refuse an objective that no design has. Raises SpecError."""
+    study, model = base.study, MODELS.get(base.kind.name)
+    named = {"study.objective": study.objective, "study.pareto.against": study.pareto.against if study.pareto else None}
+    for where, objective in named.items() if model is not None else ():
+        why = None if objective is None or model is None else model.never(base, objective.figure)
+        if objective is not None and why is not None:
+            raise SpecError(
+                f"{where} must name a figure that the designs have; {objective.figure} is not given: {why}."
+            )
 
 
 def one_at_a_time(

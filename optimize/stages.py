@@ -244,6 +244,8 @@ class Stages:
         )
         if ending.stopped_by is not None:
             raise ending.stopped_by
+        if all(self.merit.loss(made) is None for made in self.archive.history):
+            return "It found no design to go by."
         return ending.reason
 
     def see(self, x: Point) -> tuple[float, tuple[float, ...]]:

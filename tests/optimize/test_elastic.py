@@ -9,6 +9,7 @@ import toy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from fluxbore.design.errors import DesignError
 from fluxbore.design.performance import Performance
 from fluxbore.design.spec import load
 from fluxbore.design.study import Constraint, Variable
@@ -121,6 +122,27 @@ def test_a_figure_that_no_design_gives_is_named():
     result = search(smooth.study(constraints=(Constraint("speed_limit", lower=1.0),), max_evaluations=20))
     assert all(made.evaluation.ok for made in result.history)
     assert result.stop_reason.endswith("No design gives every figure that is limited; missing are speed_limit.")
+
+
+def test_a_search_without_an_objective_has_not_converged():
+    spec = smooth.study(figure="peak_force", constraints=(), max_evaluations=20)
+    result = search(spec)
+    assert "converged" not in result.stop_reason
+    assert result.stop_reason.endswith(
+        "It found no design to go by. None of its designs gives peak_force, the objective."
+    )
+
+
+def test_combinations_none_of_which_can_be_built_say_why():
+    def unbuilt(design, fidelity="fem", gradient=()):
+        raise DesignError(f"actuator.n must be odd; got {int(design.number(toy.N))}.")
+
+    variables = (Variable(toy.N, 0, 2, integer=True),)
+    result = search(smooth.study(constraints=(), variables=variables), unbuilt)
+    assert result.best is None
+    assert result.stop_reason.endswith(
+        "None of its designs could be evaluated. The first: actuator.n must be odd; got 1."
+    )
 
 
 def test_a_key_that_follows_from_the_variables_has_its_slope():

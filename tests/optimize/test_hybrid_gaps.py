@@ -4,11 +4,13 @@ from dataclasses import replace
 
 import pytest
 
+from fluxbore.design.errors import SpecError
 from fluxbore.design.performance import Performance
 from fluxbore.design.spec import Spec, loads
 from fluxbore.design.spec_file import template
-from fluxbore.design.study import Constraint, Objective
+from fluxbore.design.study import Constraint, Objective, Pareto, Variable
 from fluxbore.optimize.hybrid_common import common_figures, derived, warnings
+from fluxbore.optimize.search import check_study
 
 TEXT = template("ipehla")
 
@@ -56,3 +58,27 @@ def test_the_objective_counts_too() -> None:
 def test_a_winding_that_runs_away_is_said() -> None:
     (warning,) = warnings(*asked({"operating_point.current": "40 A"}))
     assert "the copper runs away" in warning
+
+
+@pytest.mark.parametrize(
+    ("figure", "changes", "reason"),
+    [
+        ("peak_force", {"operating_point.peak_current": ""}, "operating_point.peak_current is not given"),
+        ("stored_energy", {}, "only coils have it"),
+        ("no_load_speed", {"operating_point.supply_voltage": ""}, "operating_point.supply_voltage is not given"),
+        ("eddy_loss", {"actuator.cylinder.material": "PEEK"}, '"PEEK" states no resistivity'),
+    ],
+)
+def test_an_objective_that_no_design_has_is_refused(figure: str, changes: dict[str, str], reason: str) -> None:
+    """Catches a budget spent on designs none of which can be compared."""
+    spec = loads(TEXT, changes)
+    moved = Variable("operating_point.peak_current", 1.0, 3.0)
+    spec = replace(spec, study=replace(spec.study, objective=Objective(figure, True), constraints=(), pareto=None))
+    with pytest.raises(SpecError, match=rf"^study\.objective must name .* {figure} is not given: .*{reason}\.$"):
+        check_study(spec)
+    if figure == "peak_force":
+        check_study(replace(spec, study=replace(spec.study, variables=(moved,))))
+    against = Pareto(Objective(figure, True), 5)
+    front = replace(spec.study, objective=Objective("force_constant", True), pareto=against)
+    with pytest.raises(SpecError, match=r"^study\.pareto\.against must name"):
+        check_study(replace(spec, study=front))
