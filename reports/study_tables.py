@@ -30,6 +30,9 @@ from fluxbore.reports.wording import (
 AT_BOUND = 1e-3
 """Share of a variable's range within which it counts as standing at its bound."""
 
+NOISE = 1e-9
+"""Of a variable's range; what is smaller is zero that was computed."""
+
 
 @dataclass(frozen=True, slots=True)
 class Tile:
@@ -160,12 +163,20 @@ def candidates(content: ReportContent) -> Table | None:
         ("Joint optimum", search.best),
         ("Joint optimum, rounded to the workshop’s steps", search.rounded),
     ]
-    present = [(name, item) for name, item in named if item is not None]
+    present: list[tuple[str, Candidate]] = []
+    for name, item in named:
+        twin = next((i for i, (_, other) in enumerate(present) if item is not None and _same(item, other)), None)
+        if item is None:
+            continue
+        if twin is None:
+            present.append((name, item))
+        else:
+            present[twin] = (f"{present[twin][0]}, also the {name[0].lower()}{name[1:]}", present[twin][1])
     scale = figure_scale(objective.figure, [item.objective for _, item in present])
     rows = tuple(
         (
             Cell(_named(name, item, search)),
-            Cell(scale.number(item.objective), "strong" if item is search.chosen else ""),
+            Cell(scale.number(item.objective), "strong" if _same(item, search.chosen) else ""),
             Cell(_against(search.start, item)),
             _standing(content, item),
         )
@@ -178,12 +189,16 @@ def candidates(content: ReportContent) -> Table | None:
 def history(content: ReportContent, search: SearchResult, objective: Objective) -> Table:
     """Every design of the search."""
     keys = [variable.key for variable in content.spec.study.variables]
-    scales = {key: key_scale(content.spec, key, [c.values.get(key) for c in search.history]) for key in keys}
+    spec = content.spec
+    scales = {
+        key: key_scale(spec, key, [_without_noise(spec, key, c.values.get(key)) for c in search.history])
+        for key in keys
+    }
     scale = figure_scale(objective.figure, [c.objective for c in search.history])
     rows = tuple(
         (
             Cell(str(i)),
-            *(Cell(scales[key].number(item.values.get(key))) for key in keys),
+            *(Cell(scales[key].number(_without_noise(content.spec, key, item.values.get(key)))) for key in keys),
             Cell(scale.number(item.objective)),
             _standing(content, item),
         )
@@ -203,11 +218,27 @@ def _at_bound(value: float, lower: float, upper: float) -> Cell:
 
 def _exact(spec: Spec, key: str, value: float | None) -> str:
     """A key's value with its unit and the decimals it needs, at most three."""
+    value = _without_noise(spec, key, value)
     return key_scale(spec, key, [value]).quantity(value)
 
 
+def _without_noise(spec: Spec, key: str, value: float | None) -> float | None:
+    """Zero for what is next to nothing of the variable's range: a bound of zero that was computed."""
+    own = next((variable for variable in spec.study.variables if variable.key == key), None)
+    if own is None or value is None:
+        return value
+    return 0.0 if abs(value) < NOISE * (own.upper - own.lower) else value
+
+
 def _named(name: str, item: Candidate, search: SearchResult) -> str:
-    return name + " (network)" * (item.evaluation.fidelity == "network") + " – chosen" * (item is search.chosen)
+    return name + " (network)" * (item.evaluation.fidelity == "network") + " – chosen" * _same(item, search.chosen)
+
+
+def _same(item: Candidate, other: Candidate | None) -> bool:
+    """Whether both are one design by one route: the best may be the start, and the rounded one may be the best."""
+    if other is None or item.evaluation.fidelity != other.evaluation.fidelity:
+        return False
+    return dict(item.values) == dict(other.values)
 
 
 def _against(start: Candidate, item: Candidate) -> str:

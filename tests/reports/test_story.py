@@ -70,6 +70,34 @@ def test_what_the_network_does_not_know_is_not_met(content: ReportContent, liste
     assert row[3].tone != "good"
 
 
+def test_a_design_is_chosen_once(content: ReportContent) -> None:
+    """Catches a start that is the best, and a best that is rounded already, told of as so many chosen designs."""
+    search = _search(content)
+    again = dataclasses.replace(search.start)
+    table = study_tables.candidates(
+        dataclasses.replace(content, search=dataclasses.replace(search, best=again, rounded=again))
+    )
+    assert table is not None
+    names = [row[0].text for row in table.rows]
+    assert sum("chosen" in name for name in names) == 1
+    assert names[0] == (
+        "Start, also the joint optimum, also the joint optimum, rounded to the workshop’s steps – chosen"
+    )
+    assert table.rows[0][1].tone == "strong"
+
+
+def test_noise_about_zero_is_zero(content: ReportContent) -> None:
+    """Catches "-2.776e-11 mm" at a bound of zero."""
+    search = _search(content)
+    key = next(iter(search.start.values))
+    noisy = dataclasses.replace(search.start, values={**search.start.values, key: -2.776e-14})
+    objective = content.spec.study.objective
+    assert objective is not None
+    table = study_tables.history(content, dataclasses.replace(search, history=(noisy,)), objective)
+    assert float(table.rows[0][1].text) == 0
+    assert "−" not in table.rows[0][1].text
+
+
 def test_warnings_stand_under_the_verdict(content: ReportContent) -> None:
     """Catches a design with magnets too hot that the page calls plainly good."""
     told = "At this temperature 12 % of the magnets’ volume is beyond its intrinsic coercivity."
