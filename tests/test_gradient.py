@@ -10,6 +10,7 @@ from fluxbore.cli import main
 from fluxbore.design.performance import Performance
 from fluxbore.design.spec import Spec
 from fluxbore.design.spec_file import template
+from fluxbore.gradient_messages import gradient_text
 from fluxbore.optimize.evaluate import MODELS, Model
 from fluxbore.optimize.evaluation import OK, Evaluation, Norm
 
@@ -70,6 +71,20 @@ def test_people_get_millimetres(capsys):
     assert [YOKE, "-0.02", "mT", "per", "mm"] in lines
     assert out.endswith("None of them moves bore_dilation.\n")
     assert "\nstray_field (by its 20-norm, 0.49 mT; the figure itself is 0.5 mT)\n" in out
+
+
+def test_figures_without_derivatives_are_named_and_noise_is_none():
+    """Catches a figure that is missing without a word, and a slope of rounding errors beside real ones."""
+    spec = fluxbore.load("spec.toml")
+    made = Performance(force_constant=8.5, stray_field=5e-4, turns=60.0, demagnetised_fraction=0.01)
+    slopes = {"force_constant": {RING: -302.1, YOKE: 1e-9}, "stray_field": {RING: 1e-15, YOKE: 0.0}}
+    lines = gradient_text(spec, Evaluation("fem", OK, (), made, gradient=slopes)).splitlines()
+    assert lines[3].split() == [YOKE, "+0", "N/A", "per", "mm"]
+    assert lines[4:] == [
+        "None of them moves stray_field.",
+        "No derivatives, for they count points: demagnetised_fraction.",
+        "No derivatives: turns.",
+    ]
 
 
 def test_a_model_without_derivatives_says_so(capsys):
