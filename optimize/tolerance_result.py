@@ -119,8 +119,8 @@ class ToleranceResult:
     figures : the objective's first, then those of the limits, then the rest. requirements : in the study's order.
     simulated : yield of all limits together in the samples of the linear model, among them those that cannot be built.
     examined : how many samples that is. checked : the same corrected by the samples computed in full. direct : the
-    plain count in those. shifted : the linear model moved by its mean error in those, which presumes that the error is
-    alike in all samples; None where it is too large for that, see `fluxbore.optimize.tolerance_shift`.
+    plain count in those. shifted : the linear model corrected by its error in those, which presumes that the error is
+    smooth between them; None where they are too few or one failed, see `fluxbore.optimize.tolerance_shift`.
     effects : the most harmful tolerance first.
     rejects : of the samples. failures : of those computed in full, which count as rejects too.
     warnings : whole sentences. reused : evaluations that the journal held, of ``evaluations``; seconds are this run's.
@@ -147,7 +147,7 @@ class ToleranceResult:
 
     @property
     def best_estimate(self) -> Interval:
-        """The yield by the best that was computed: ``shifted`` where the linear model is good enough for it."""
+        """The yield by the best that was computed: ``shifted`` where it is given."""
         return self.shifted or self.checked or self.simulated
 
     def figure(self, subject: str) -> FigureSpread | None:

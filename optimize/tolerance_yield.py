@@ -72,7 +72,7 @@ class Scatter:
         for column, tolerance in enumerate(self.tolerances):
             halved = self.deviations.copy()
             halved[:, column] /= 2
-            good = _verdicts(limits, subjects, halved).all(axis=1)
+            good: Flags = np.array(_verdicts(limits, subjects, halved).all(axis=1))
             for row in np.flatnonzero(good) if not self.built.all() else ():
                 good[row] = why_not(self.evaluator, values(self.evaluator, self.tolerances, halved[row])) is None
             share = float(np.mean(good))
