@@ -25,16 +25,26 @@ def moved(spec: Spec, key: str, value: float) -> Spec:
 
 
 def differentiable(spec: Spec, keys: Sequence[str]) -> list[str]:
-    """Those of the keys that hold a continuous quantity of the design."""
+    """Those of the keys that hold a continuous quantity of the design, given or by default.
+
+    Of alternatives, such as a ring's width and a magnet's thickness, the given ones.
+    """
     kinds = {key.name: key for key in spec.kind.keys}
+    following = {name for group in spec.kind.alternatives for name in group.keys}
     return [
         name
         for name in keys
         if name in kinds
         and kinds[name].kind in ("quantity", "number")
         and kinds[name].section != "solver"
-        and name in spec.given
+        and (name in spec.given or (name in spec.values and name not in following))
     ]
+
+
+def held(spec: Spec, keys: Sequence[str]) -> Spec:
+    """The same design, given by these keys too, so that each stays while another moves: by default an insulated wire
+    follows the bare one."""
+    return replace(spec, given={**{key: spec.values[key] for key in keys}, **spec.given})
 
 
 def slope(spec: Spec, key: str, at: Callable[[Spec, float], Any]) -> Any | None:
@@ -78,6 +88,7 @@ def closed_gradient(
 
     base = spec.pinned(keys)
     wanted = differentiable(base, keys)
+    base = held(base, wanted)
     names = [name for name in FIGURES if name not in without]
     gradient: dict[str, dict[str, float]] = {name: {} for name in names}
     for key in wanted:

@@ -7,12 +7,14 @@ import numpy as np
 import pytest
 
 from fluxbore.design.errors import DesignError
+from fluxbore.design.manufacture import winding_room
 from fluxbore.design.performance import Performance
 from fluxbore.design.spec import Spec, load
 from fluxbore.optimize.partials import closed_gradient, differentiable, moved, slope
 
 PITCH, RING = "actuator.mover.pole_pitch", "actuator.mover.ring_width"
 SPEED = "operating_point.speed"
+ENAMEL, WIRE = "actuator.winding.insulated_diameter", "actuator.winding.wire_diameter"
 
 
 @pytest.fixture(scope="module")
@@ -59,7 +61,7 @@ def test_walls_on_both_sides(spec: Spec) -> None:
 
 
 def test_which_keys_are_continuous(spec: Spec) -> None:
-    """Catches derivatives by counts, words, the solver's own settings, and keys that follow from others."""
+    """Catches derivatives by counts, words, solver settings and keys that follow from others, and none by defaults."""
     asked = [
         RING,
         "actuator.mover.pole_pairs",
@@ -67,10 +69,27 @@ def test_which_keys_are_continuous(spec: Spec) -> None:
         "actuator.mover.magnet_thickness",
         "solver.tolerance",
         "study.objective",
-        "operating_point.peak_current",
+        ENAMEL,
         SPEED,
     ]
-    assert differentiable(spec, asked) == [RING, SPEED]
+    assert ENAMEL not in spec.given
+    assert differentiable(spec, asked) == [RING, ENAMEL, SPEED]
+
+
+def test_a_default_stays_while_what_it_follows_moves(spec: Spec) -> None:
+    """Catches a wire whose enamel grows with it in one derivative and not in the other. Room for the winding is
+    height - N/(8 x width) d^2: it has a slope by the insulated diameter and none by the bare one."""
+
+    def complete(there: Spec, step: float, key: str) -> Performance:
+        return Performance(winding_room=winding_room(there.actuator, there.number(ENAMEL)))
+
+    row = closed_gradient(spec, [ENAMEL, WIRE], complete)["winding_room"]
+    actuator = spec.actuator
+    assert row[WIRE] == 0.0
+    per_layer = actuator.turns_per_coil / actuator.coil_width
+    assert row[ENAMEL] == pytest.approx(-2 * per_layer * spec.number(ENAMEL), rel=1e-6)
+    alone = closed_gradient(spec, [WIRE], complete)["winding_room"]
+    assert alone[WIRE] == pytest.approx(1.1 * row[ENAMEL], rel=1e-6)
 
 
 def test_figures_by_keys(spec: Spec) -> None:
