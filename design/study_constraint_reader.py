@@ -7,7 +7,7 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from fluxbore.design.errors import SpecError
+from fluxbore.design.errors import SpecError, shown
 from fluxbore.design.keys import Key
 from fluxbore.design.performance import FIGURES
 from fluxbore.design.study import Constraint, Variable
@@ -39,6 +39,7 @@ def read_constraint(raw: Mapping[str, Any], where: str, known: Mapping[str, Key]
         if match:
             limits[bound] = _factor(match.group(1), f"{where}.{bound}")
         else:
+            _refuse_near_factor(raw[bound], f"{where}.{bound}")
             limits[bound] = read_value(raw[bound], loose(key), f"{where}.{bound}")
         relative.append(match is not None)
     if len(set(relative)) > 1:
@@ -52,6 +53,12 @@ def read_constraint(raw: Mapping[str, Any], where: str, known: Mapping[str, Key]
     if upper is not None and upper < 0 and key.name in FIGURES and not FIGURES[key.name].signed:
         raise SpecError(f"{where}.upper must be at least zero, for {key.name} always is; got {key.show(upper)}.")
     return Constraint(key.name, upper, lower, relative[0])
+
+
+def _refuse_near_factor(raw: object, where: str) -> None:
+    """A text that speaks of the start in another form than ours is told the form."""
+    if isinstance(raw, str) and re.search(r"\bstart\b", raw):
+        raise SpecError(f'{where} must be a quantity, "start" or a multiple such as "1.1 x start"; got {shown(raw)}.')
 
 
 def _factor(text: str | None, where: str) -> float:

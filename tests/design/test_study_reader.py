@@ -194,6 +194,8 @@ WRONG = {
     f'{STRAY}upper = "1 mm"': 'with the unit "mm".',
     f'{STRAY}upper = "-1 T"': "study.constraints.0.upper must be at least zero, for stray_field always is; got -1 T.",
     f'{CONSTRAINT}figure = "back_emf"\nupper = "-1 V"': "study.constraints.0.upper must be at least zero, for back_emf always is; got -1 V.",
+    f'{STRAY}upper = "1.1 * start"': 'study.constraints.0.upper must be a quantity, "start" or a multiple such as "1.1 x start"; got "1.1 * start".',
+    f'{STRAY}upper = "start x 1.1"': 'or a multiple such as "1.1 x start"; got "start x 1.1".',
     f'{STRAY}upper = "0 x start"': 'got the factor "0".',
     f'{STRAY}upper = "1 mT"\nlower = "2 mT"': "stray_field would have to be at least 0.002 T and at most 0.001 T.",
     f'{STRAY}upper = "start"\nlower = "2 x start"': "stray_field would have to be at least 2 x start and at most 1 x start.",
