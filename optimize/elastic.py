@@ -23,6 +23,9 @@ from fluxbore.optimize.slopes import Slopes
 NEGLIGIBLE = 1e-3
 """Of the weights' sum: what weighs less takes no part in the conflict."""
 
+TOUCHING = 1e-2
+"""Of a variable's range or of the worst miss: what is farther away holds nothing, whatever it would cancel."""
+
 STATIONARY = 1e-2
 """Largest residual of the multipliers at which the least infeasible design counts as found."""
 
@@ -101,18 +104,18 @@ def approach_freely(stage: GradientStage, see: Any, start: Point, tolerance: flo
 def conflict(slopes: Slopes, designs: Sequence[Candidate]) -> Conflict | None:
     """What keeps the least infeasible of these designs from being feasible; None where one is feasible or none sound.
 
-    Without derivatives the conflict is all that this design misses.
+    Without derivatives, and where the search ended before the least infeasible design, the conflict is all that this
+    design misses.
     """
     nearest = min(designs, key=violation, default=None)
     worst = math.inf if nearest is None else violation(nearest)
     if nearest is None or math.isinf(worst) or worst == 0:
         return None
     weighed = _weighed(slopes, nearest, worst)
-    if weighed is None:
+    if weighed is None or weighed[1] > STATIONARY:
         missed = [_clash(item) for item in nearest.checks if not item.satisfied]
         return Conflict(nearest.values, worst, tuple(sorted(missed, key=lambda clash: -clash.relative)))
-    clashes, left = weighed
-    return Conflict(nearest.values, worst, tuple(sorted(clashes, key=_heaviest)), left <= STATIONARY)
+    return Conflict(nearest.values, worst, tuple(sorted(weighed[0], key=_heaviest)), settled=True)
 
 
 def describe(base: Spec, found: Conflict) -> str:
@@ -143,9 +146,12 @@ def _weighed(slopes: Slopes, made: Candidate, worst: float) -> tuple[list[Clash]
     room = np.concatenate([(worst - np.asarray(view.misses)) / worst, x, 1 - x])
     size_of = float(np.abs(sides[:count]).max()) or 1.0
     one = np.concatenate([np.ones(count), np.zeros(2 * size)])
-    matrix = np.vstack([sides.T / size_of, np.diag(room), 1e3 * one])
-    found, _ = nnls(matrix, np.concatenate([np.zeros(size + len(room)), [1e3]]))
-    left = float(np.abs(matrix[:-1] @ found).max())
+    touching = np.flatnonzero(room <= TOUCHING)
+    matrix = np.vstack([sides.T / size_of, np.diag(room), 1e3 * one])[:, touching]
+    weights, _ = nnls(matrix, np.concatenate([np.zeros(size + len(room)), [1e3]]))
+    left = float(np.abs(matrix[:-1] @ weights).max())
+    found = np.zeros(len(room))
+    found[touching] = weights
     checks = {item.limit: item for item in made.checks}
     clashes = [
         _clash(checks[limit], weight, worst)
@@ -162,7 +168,7 @@ def _weighed(slopes: Slopes, made: Candidate, worst: float) -> tuple[list[Clash]
 def _clash(item: Check, weight: float | None = None, worst: float = 0.0) -> Clash:
     limit, size = item.limit, item.limit.size
     relative = max(-item.margin, 0.0) if item.margin is not None else math.inf
-    alone = None if weight is None else worst * size / float(weight)
+    alone = None if weight is None or worst > weight else worst * size / float(weight)
     value = math.nan if item.value is None else item.value
     return Clash(
         limit.subject,
@@ -179,7 +185,8 @@ def _clash(item: Check, weight: float | None = None, worst: float = 0.0) -> Clas
 def _bound(box: Box, made: Candidate, j: int, sense: str, weight: float, worst: float) -> Clash:
     key, span = box.keys[j], box.upper[j] - box.lower[j]
     limit = (box.lower if sense == ">=" else box.upper)[j]
-    return Clash(key, sense, limit, made.values[key], 0.0, 0.0, weight, worst * span / weight, bound=True)
+    alone = None if worst > weight else worst * span / weight
+    return Clash(key, sense, limit, made.values[key], 0.0, 0.0, weight, alone, bound=True)
 
 
 def _heaviest(clash: Clash) -> float:

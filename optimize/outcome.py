@@ -103,8 +103,9 @@ class Clash:
     missed : SI, >= 0, how far the least infeasible design is beyond it; 0 for a bound. relative : the same of the
     limit's size.
     weight : of this one in the conflict, their sum over the limits being 1: moving it by 1 % of its size (a bound by
-    1 % of its range) brings the worst miss down by weight x 1 %. alone : SI, how far it would have to give way, alone,
-    for every limit to hold, to first order. Both None where there are no gradients.
+    1 % of its range) brings the worst miss down by weight x 1 %; None where there are no gradients or the least
+    infeasible design was not found. alone : SI, how far it would have to give way, alone, for every limit to hold, to
+    first order; None without a weight, and where that is more than its own size, where no slope tells.
     """
 
     subject: str
