@@ -1,8 +1,9 @@
-"""The iPEHLA's six dimensions (examples/ipehla-optimum.toml) by seven searches: fields solved and seconds to 0.1 %.
+"""The iPEHLA's six dimensions (examples/ipehla-optimum.toml) by six searches: fields solved and seconds to 0.1 %.
 
     python benchmarks/optimisers.py                      the table
     python benchmarks/optimisers.py --write              and docs/validation/optimisers.md
     python benchmarks/optimisers.py --only SLSQP BOBYQA
+    python benchmarks/optimisers.py --keep runs          runs are kept in this folder, and those in it not run again
 
 Every search begins at the paper's prototype and has the same variables, without the workshop's steps, and the same
 limits. Counted is what it took until a feasible design was within 0.1 % of the best feasible one that any search found:
@@ -39,9 +40,9 @@ PAGE = TOP / "docs" / "validation" / "optimisers.md"
 CLOSE = 1e-3
 """Relative distance to the best at which a search has arrived."""
 LOCAL = ("SLSQP", "MMA", "CCSAQ")
-OTHERS = ("MLSL", "BOBYQA", "COBYLA", "ISRES")
-BUDGET = 400
-"""Designs for the searches that are not by gradients from one place; those have the example's own budget."""
+FREE = {"BOBYQA": 150, "COBYLA": 400, "ISRES": 400}
+"""The searches without derivatives and their budgets of designs; those by gradients have the example's own."""
+ALL = (*LOCAL, *FREE)
 REPEATS = 3
 
 
@@ -85,7 +86,7 @@ class Run:
 def study(algorithm: str) -> Spec:
     """The example with this search, without the workshop's steps."""
     spec = load(EXAMPLE)
-    budget = spec.study.search.max_evaluations if algorithm in LOCAL else BUDGET
+    budget = FREE.get(algorithm, spec.study.search.max_evaluations)
     search = replace(spec.study.search, algorithm=algorithm, max_evaluations=budget)
     variables = tuple(replace(variable, resolution=None) for variable in spec.study.variables)
     return replace(spec, study=replace(spec.study, search=search, variables=variables))
@@ -124,18 +125,31 @@ def steps(result: SearchResult, seconds: list[float]) -> tuple[Step, ...]:
     )
 
 
-def measured(algorithm: str) -> list[Run]:
-    """The same search in fresh processes, as often as its seconds need it."""
-    environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
-    command = [sys.executable, str(Path(__file__).resolve()), "--one", algorithm]
+def measured(algorithm: str, keep: Path | None) -> list[Run]:
+    """The same search in fresh processes, as often as its seconds need it.
+
+    keep : a folder for the runs; those that are in it already are read.
+    """
     runs = []
-    for _ in range(REPEATS if algorithm in LOCAL else 1):
-        answer = subprocess.run(command, stdout=subprocess.PIPE, text=True, env=environment, check=False)
-        if answer.returncode:
-            sys.exit(f"The run of {algorithm} failed.")
-        made = json.loads(answer.stdout)
+    for count in range(REPEATS if algorithm in LOCAL else 1):
+        path = None if keep is None else keep / f"{algorithm}-{count + 1}.json"
+        text = path.read_text(encoding="utf-8") if path is not None and path.exists() else fresh(algorithm)
+        if path is not None:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text, encoding="utf-8")
+        made = json.loads(text)
         runs.append(Run(**{**made, "steps": tuple(Step(**step) for step in made["steps"])}))
     return runs
+
+
+def fresh(algorithm: str) -> str:
+    """A run in a process of its own, as JSON."""
+    environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
+    command = [sys.executable, str(Path(__file__).resolve()), "--one", algorithm]
+    answer = subprocess.run(command, stdout=subprocess.PIPE, text=True, env=environment, check=False)
+    if answer.returncode:
+        sys.exit(f"The run of {algorithm} failed.")
+    return answer.stdout
 
 
 def table(searches: list[list[Run]]) -> list[str]:
@@ -187,16 +201,17 @@ def provenance() -> str:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description="Searches on one problem: fields and seconds to 0.1 % of the best.")
-    parser.add_argument("--only", nargs="+", choices=LOCAL + OTHERS, default=LOCAL + OTHERS, metavar="SEARCH")
+    parser.add_argument("--only", nargs="+", choices=ALL, default=ALL, metavar="SEARCH")
+    parser.add_argument("--keep", type=Path, metavar="DIR", help="folder for the runs, not run again")
     parser.add_argument("--write", action="store_true", help=f"write {PAGE.relative_to(TOP)}")
-    parser.add_argument("--one", choices=LOCAL + OTHERS, help=argparse.SUPPRESS)
+    parser.add_argument("--one", choices=ALL, help=argparse.SUPPRESS)
     given = parser.parse_args()
     if given.one is not None:
         print(json.dumps(asdict(run(given.one))))
         return
     where, searches = provenance(), []
     for algorithm in given.only:
-        searches.append(measured(algorithm))
+        searches.append(measured(algorithm, given.keep))
         print(f"{algorithm}: {searches[-1][0].reason}", file=sys.stderr, flush=True)
     rows, ends = "\n".join(table(searches)), "\n".join(reasons(searches))
     print(f"{rows}\n\n{ends}")
@@ -214,8 +229,9 @@ feasible one that any of them found. A design is eight fields, one for each posi
 factorisation. Seconds are the processor's in one process, derivatives included, the median of three runs for SLSQP, MMA
 and CCSAQ.
 
-SLSQP, MMA, CCSAQ and MLSL (SLSQP from many places) use exact gradients; BOBYQA, COBYLA and ISRES none. fluxbore lets
-COBYLA go on where ISRES has used up 60 % of its budget, and polishes what these three leave by quadratic models.
+SLSQP, MMA and CCSAQ use exact gradients; BOBYQA, COBYLA and ISRES none. fluxbore lets COBYLA go on where ISRES has used
+up 60 % of its budget, and polishes what these three leave by quadratic models. BOBYQA has no limits of its own: it gets
+them through NLopt's augmented Lagrangian.
 
 """
 

@@ -45,13 +45,15 @@ def minimise(
     variable_tolerance: float = 1e-6,
     miss_tolerance: float = 1e-8,
     calls: int = 500,
+    asked_tolerance: float | None = None,
 ) -> Ending:
     """Let NLopt look for the smallest loss between the bounds; whoever calls keeps the points that ``function`` saw.
 
     start, lower, upper : (n,), scaled so that a step of 0.1 is worth while and losses and misses are near 1 in size.
     objective_tolerance : relative. variable_tolerance : absolute. calls : of the function. miss_tolerance : a miss that
     the stop rule overlooks: from outside a limit is reached in the limit only. Whoever must not miss at all adds as
-    much to his misses.
+    much to his misses. asked_tolerance : of the objective, the one that the sentence names where whoever calls stops
+    at a tighter one than was asked of him.
 
     What ``function`` raises (a used-up budget, Ctrl-C) ends the run and stands in `Ending.stopped_by`. A point at which
     it gives None is seen as a smooth bowl around the best sound point, above it in loss and misses alike: line searches
@@ -91,7 +93,7 @@ def minimise(
     opt.set_min_objective(loss)
     if first.misses:
         opt.add_inequality_mconstraint(misses, np.full(len(first.misses), miss_tolerance))
-    return run(opt, origin, seen.stopped, objective_tolerance, variable_tolerance)
+    return run(opt, origin, seen.stopped, asked_tolerance or objective_tolerance, variable_tolerance)
 
 
 class _Seen:

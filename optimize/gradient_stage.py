@@ -101,6 +101,7 @@ class GradientStage:
             objective_tolerance=self.tolerance / 10,
             variable_tolerance=self.tolerance,
             miss_tolerance=self.room / 2,
+            asked_tolerance=self.tolerance,
         )
 
     def at(self, x: Point, kappas: Mapping[str, float]) -> View | None:

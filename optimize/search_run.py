@@ -13,7 +13,7 @@ from fluxbore.design.spec import Spec
 from fluxbore.design.study import Objective, Variable
 from fluxbore.optimize import rounding
 from fluxbore.optimize.archive import Archive
-from fluxbore.optimize.enumeration import Counts, distance, in_turn, show
+from fluxbore.optimize.enumeration import Counts, distance, in_turn, show, told_left_out, told_rest
 from fluxbore.optimize.evaluation import Evaluation
 from fluxbore.optimize.evaluator import Evaluated, Evaluator
 from fluxbore.optimize.network_start import network_start, objective_size
@@ -173,6 +173,7 @@ class SearchRun:
                 break
             stages = self.made(counts, limits, merit, max(share, len(first)) if i == 0 else share)
             stages.spare = kept if i == len(turns) - 1 else 0
+            stages.rest = told_rest(outside=not self.inside, several=len(turns) > 1, rounded=kept > 0)
             try:
                 begun = first if i == 0 else self.warm(counts)
             except KeyboardInterrupt:
@@ -189,8 +190,10 @@ class SearchRun:
         """The reason of the search that found the best; of several combinations, which it is."""
         if many == 1:
             return reasons[0]
-        winner = self.winner or self.stages[-1]
-        words = f"{len(reasons)} of {many} combinations of counts were searched, none was left out as hopeless. "
+        searched = [stages for stages in self.stages if not stages.left_out]
+        winner = self.winner or (searched or self.stages)[-1]
+        words = f"{len(searched)} of {many} combinations of counts were searched. "
+        words += told_left_out([(_counts(stages), stages.left_out) for stages in self.stages if stages.left_out])
         if len(reasons) < many:
             words += f"The budget of {self.budget} FEM designs did not reach for the others. "
         best = "" if self.winner is None else f"The best is at {show(_counts(winner))}: "
@@ -241,7 +244,8 @@ class SearchRun:
 
     def warm(self, counts: Counts) -> list[dict[str, float]]:
         """Where a later combination begins: at the best of its nearest neighbour, and at its own network's optimum."""
-        neighbour = min(self.stages, key=lambda stages: distance(_counts(stages), counts))
+        built = [stages for stages in self.stages if not stages.left_out] or self.stages
+        neighbour = min(built, key=lambda stages: distance(_counts(stages), counts))
         known = neighbour.archive.best or (neighbour.best_known() if neighbour.archive.history else None)
         values = self.start_values if known is None else known.values
         network = self.network_start(counts)

@@ -10,6 +10,7 @@ from fluxbore.design.errors import FluxboreError
 from fluxbore.design.study import GRADIENT_ALGORITHMS, Search
 from fluxbore.optimize import elastic, nlopt_loop
 from fluxbore.optimize.archive import Archive, BudgetUsedError, TimeUsedError
+from fluxbore.optimize.enumeration import hopeless
 from fluxbore.optimize.evaluator import Evaluated
 from fluxbore.optimize.gradient_search import NO_START
 from fluxbore.optimize.gradient_stage import GradientStage
@@ -56,6 +57,7 @@ class Stages:
     what they find feasible.
     propose : the search to run in place of NLopt's, or None.
     spare : further designs for the time when nothing feasible was found: there will be nothing to round.
+    rest : what the budget beyond this archive's is for, in words. left_out : why the combination was not searched.
     ending : how `run` ended. ran : names of what searched, in order. network_calls : by ``propose``.
     """
 
@@ -68,6 +70,8 @@ class Stages:
     slopes: Slopes
     propose: Propose | None = None
     spare: int = 0
+    rest: str = ""
+    left_out: str = ""
     ending: SearchEnding = "done"
     ran: list[str] = field(default_factory=list)
     network_calls: int = 0
@@ -87,6 +91,9 @@ class Stages:
                 self.archive.evaluate(first[: self.archive.left])
             for values, item in zip(first, done or (), strict=done is not None):
                 self.archive.adopt(values, item.evaluation, item.reused)
+            self.probe()
+            if self.left_out:
+                return f"Its first designs all fail alike: {self.left_out}"
             return self.restored(self.searched())
         except KeyboardInterrupt:
             self.ending = "interrupted"
@@ -94,6 +101,15 @@ class Stages:
         except Exception as error:
             self.ending = "failed"
             return mishap(error)
+
+    def probe(self) -> None:
+        """See whether the counts alone make every design fail; where one design does, the middle of the box tells."""
+        archive = self.archive
+        if not archive.fixed or not archive.box.keys or any(made.evaluation.ok for made in archive.history):
+            return
+        if len(archive.history) == 1 and archive.left:
+            archive.at((0.5,) * len(archive.box.keys))
+        self.left_out = hopeless(archive.history)
 
     def searched(self) -> str:
         """The search from the best of the first designs; a used-up budget is an ending like others."""
@@ -210,7 +226,11 @@ class Stages:
     def spent(self, error: BudgetUsedError) -> str:
         if isinstance(error, TimeUsedError):
             return f"The search reached its time limit of {self.search.time_limit:g} s."
-        return f"The search used up its budget of {self.search.max_evaluations} FEM designs."
+        budget, share = self.search.max_evaluations, self.archive.budget
+        rest = f"; the rest is for {self.rest}" if self.rest else ""
+        if share >= budget:
+            return f"The search used up its budget of {budget} FEM designs."
+        return f"The search used up its share of the budget, {share} of {budget} FEM designs{rest}."
 
     def best_known(self) -> Candidate:
         """The best of all designs so far, feasible or not."""

@@ -7,6 +7,7 @@ import toy
 from fluxbore.design.errors import SpecError
 from fluxbore.design.study import Constraint, Variable
 from fluxbore.optimize.enumeration import MOST_COMBINATIONS, combinations, distance, in_turn
+from fluxbore.optimize.evaluation import INVALID, failure
 from fluxbore.optimize.executor import SerialExecutor, local_executor
 from fluxbore.optimize.journal import Journal
 from fluxbore.optimize.outcome import Limit
@@ -106,3 +107,43 @@ def test_the_same_search_replays_over_its_journal(tmp_path, monkeypatch):
     with local_executor(2) as executor:
         third = run_search(spec, None, executor, None, smooth.counted, gradients=True)
     assert [made.values for made in third.history] == [made.values for made in first.history]
+
+
+def impossible(design, fidelity="fem", gradient=()):
+    """`smooth.counted` of which no design of two or four can be built, and none of five beyond x = -1.9."""
+    count = design.number(toy.N)
+    if count in (2, 4):
+        return failure(fidelity, INVALID, f"{count:g} sets do not fit.")
+    if count == 5 and design.number(toy.X) > -1.9:
+        return failure(fidelity, INVALID, f"At {design.number(toy.X)!r} 5 sets do not fit.")
+    return smooth.counted(design, fidelity, gradient)
+
+
+@pytest.mark.parametrize("network", ["start", "off"])
+def test_a_count_that_cannot_be_built_is_left_out_after_its_first_designs(network):
+    """Catches a budget that goes to what fails whatever the variables, and one that fails in places taken for it."""
+    spec = smooth.study(variables=(*PLANE, COUNT), max_evaluations=120, network=network)
+    result = run_search(spec, None, SerialExecutor(), None, impossible, gradients=True)
+    tried = [made.values[toy.N] for made in result.history]
+    assert tried.count(2) == tried.count(4) == 2
+    assert tried.count(5) > 2
+    assert "5 of 7 combinations of counts were searched." in result.stop_reason
+    for count in (2, 4):
+        assert (
+            f"Left out: actuator.n = {count}, where the first designs all fail alike: {count} sets do not fit."
+        ) in result.stop_reason
+    assert result.best.values[toy.N] == 3
+    assert result.ending == "done"
+
+
+def test_a_share_of_the_budget_is_not_called_all_of_it():
+    """Catches "used up its budget of 30" after 4 designs of each count."""
+    spec = smooth.study(variables=(*PLANE, COUNT), max_evaluations=30, network="off", relative_tolerance=1e-9)
+    result = search(spec)
+    assert "used up its share of the budget, " in result.stop_reason
+    assert " of 30 FEM designs; the rest is for the other combinations" in result.stop_reason
+
+
+def test_the_tolerance_that_is_named_is_the_one_asked_for():
+    result = search(smooth.study(relative_tolerance=1e-4, max_evaluations=60))
+    assert "changed by less than 0.0001 of its" in result.stop_reason
