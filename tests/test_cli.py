@@ -147,7 +147,7 @@ def test_finite_elements_are_the_default(answer):
 def test_tables_for_people(capsys):
     assert main(["evaluate", "spec.toml", "--fidelity", "network"]) == 0
     out = capsys.readouterr().out
-    assert re.search(r"^winding_resistance +5\.5498 ohm$", out, re.MULTILINE)
+    assert re.search(r"^ *winding_resistance +5\.5498 ohm$", out, re.MULTILINE)
     assert "upper bound" in out
     assert "None" not in out
 

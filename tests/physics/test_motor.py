@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from fluxbore.design.hybrid_values import positions
 from fluxbore.design.spec import Spec
 from fluxbore.fem.magnetostatics import Settings
 from fluxbore.fem.tubular import TubularSolution, solve_positions, space_vector, stray_field
@@ -206,7 +207,9 @@ def test_a_position_twice_is_solved_twice(motor: Motor) -> None:
 def test_a_failed_position_ends_the_window(spec: Spec) -> None:
     """Catches a failure that is passed over: the last item says that it did not converge."""
     solved = solve_positions(
-        lambda z: cross_section(spec.actuator, z, spec.materials, 293.15), spec.positions, Settings(max_iterations=2)
+        lambda z: cross_section(spec.actuator, z, spec.materials, 293.15),
+        positions(spec.values),
+        Settings(max_iterations=2),
     )
     assert len(solved) == 1
     assert not solved[0].convergence.converged
