@@ -56,8 +56,12 @@ def test_numbers_of_numpy_are_written_as_numbers(tmp_path):
     assert same(found, settled(evaluation))
 
 
-def test_torn_at_every_byte_it_loses_the_torn_record_only(tmp_path):
-    """Catches every way of reading half a record as a whole one, or of losing a whole one beside it."""
+@pytest.mark.parametrize("stride", [23, pytest.param(1, marks=pytest.mark.full)])
+def test_torn_at_any_byte_it_loses_the_torn_record_only(tmp_path, stride):
+    """Catches every way of reading half a record as a whole one, or of losing a whole one beside it.
+
+    stride : bytes between the tears; around the records' ends it is torn at each.
+    """
     whole = tmp_path / "whole"
     ends = [0]
     with Journal(whole) as journal:
@@ -66,7 +70,8 @@ def test_torn_at_every_byte_it_loses_the_torn_record_only(tmp_path):
             ends.append(whole.stat().st_size)
     content = whole.read_bytes()
     torn = tmp_path / "torn"
-    for length in range(len(content) + 1):
+    beside = {end + i for end in ends for i in range(-4, 5)}
+    for length in sorted({*range(0, len(content), stride), *beside} & {*range(len(content) + 1)}):
         torn.write_bytes(content[:length])
         # A record is whole with its last brace; only the line's end may be missing.
         expected = sum(length >= end - 1 for end in ends[1:])
