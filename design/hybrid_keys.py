@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from fluxbore.design.contact_force_keys import CONTACT_FORCE_KEYS
 from fluxbore.design.keys import Alternatives, Key
 from fluxbore.design.materials import Conductor, Material, PermanentMagnet
+from fluxbore.design.seal_keys import SEAL_KEYS
 
 LARGEST_LENGTH = 10.0
 """m; beyond it a length is a slip of the unit, not an actuator."""
@@ -120,51 +122,7 @@ HYBRID_KEYS: tuple[Key, ...] = (
     _length("piston.fin_length", "l", "seal fin axial length"),
     _length("piston.fin_thickness", "", "seal fin wall thickness"),
     _material("piston.material", "material of piston and seal fin"),
-    Key(
-        "actuator.seal.static_coefficient",
-        "static friction coefficient of seal and bore",
-        kind="number",
-        symbol="mu_S",
-        minimum=0.0,
-        maximum=10.0,
-        default=0.182,
-    ),
-    Key(
-        "actuator.seal.coulomb_coefficient",
-        "Coulomb friction coefficient of seal and bore",
-        kind="number",
-        symbol="mu_C",
-        minimum=0.0,
-        maximum=10.0,
-        default=0.127,
-    ),
-    Key(
-        "actuator.seal.contact_force",
-        "contact force of mover and stator without pressure",
-        dimension="force",
-        symbol="F_0",
-        minimum=0.0,
-        maximum=1e6,
-        default=20.5,
-    ),
-    Key(
-        "actuator.seal.stribeck_speed",
-        "speed at which static friction has given way",
-        dimension="speed",
-        symbol="v_s",
-        above=0.0,
-        maximum=100.0,
-        default=0.00132,
-    ),
-    Key(
-        "actuator.seal.viscous_coefficient",
-        "friction that grows with speed",
-        dimension="viscous friction",
-        symbol="sigma_2",
-        minimum=0.0,
-        maximum=1e6,
-        default=0.0,
-    ),
+    *SEAL_KEYS,
     _length("end_caps.flange_diameter", "", "outer diameter of the end caps"),
     _length("end_caps.flange_length", "", "axial length of an end cap outside the tube"),
     _length("end_caps.port_diameter", "", "diameter of the air port in each end cap"),
@@ -289,6 +247,7 @@ HYBRID_KEYS: tuple[Key, ...] = (
         choices=("banded", "superlu"),
         default="banded",
     ),
+    *CONTACT_FORCE_KEYS,
 )
 
 HYBRID_ALTERNATIVES: tuple[Alternatives, ...] = (

@@ -116,6 +116,20 @@ DIMENSIONS: dict[str, Dimension] = {
         Dimension("thermal conductivity", "W/(m K)", "W/(m K)", {"W/(m K)": Unit(1.0)}),
         Dimension("viscous friction", "N s/m", "N s/m", {"N s/m": Unit(1.0)}),
         Dimension("energy density", "J/m^3", "J/m^3", {"J/m^3": Unit(1.0), "kJ/m^3": Unit(1e3)}),
+        Dimension("frequency", "Hz", "Hz", _scaled(Hz=1.0, kHz=1e3)),
+        Dimension("area", "m^2", "mm^2", {"mm^2": Unit(1e-6), "cm^2": Unit(1e-4), "m^2": Unit(1.0)}),
+        Dimension("stiffness", "N/m", "N/mm", {"N/mm": Unit(1e3), "N/m": Unit(1.0), "kN/m": Unit(1e3)}),
+        Dimension("force density", "N/m^3", "kN/m^3", {"kN/m^3": Unit(1e3), "N/m^3": Unit(1.0)}),
+        Dimension(
+            "force constant density", "N/(A m^3)", "kN/(A m^3)", {"kN/(A m^3)": Unit(1e3), "N/(A m^3)": Unit(1.0)}
+        ),
+        Dimension(
+            "volume flow",
+            "m^3/s",
+            "ml/min",
+            {"ml/min": Unit(1e-6 / 60.0), "l/min": Unit(1e-3 / 60.0), "m^3/s": Unit(1.0)},
+        ),
+        Dimension("specific wear", "m^2/N", "mm^3/(N m)", {"mm^3/(N m)": Unit(1e-9), "m^2/N": Unit(1.0)}),
     )
 }
 """Every dimension a specification can hold, by name; their unit tables are all the units there are."""

@@ -46,6 +46,13 @@ INDEPENDENT = {
     "thermal conductivity": {"W/(m K)": 1.0},
     "viscous friction": {"N s/m": 1.0},
     "energy density": {"J/m^3": 1.0, "kJ/m^3": 1e3},
+    "frequency": {"Hz": 1.0, "kHz": 1e3},
+    "area": {"mm^2": 1e-6, "cm^2": 1e-4, "m^2": 1.0},
+    "stiffness": {"N/mm": 1e3, "N/m": 1.0, "kN/m": 1e3},
+    "force density": {"kN/m^3": 1e3, "N/m^3": 1.0},
+    "force constant density": {"kN/(A m^3)": 1e3, "N/(A m^3)": 1.0},
+    "volume flow": {"ml/min": 1.6666666666666667e-8, "l/min": 1.6666666666666667e-5, "m^3/s": 1.0},
+    "specific wear": {"mm^3/(N m)": 1e-9, "m^2/N": 1.0},
 }
 """SI value of one unit, for every dimension without an offset."""
 

@@ -1,0 +1,1 @@
+"""Actuators and their control in simulated time."""
