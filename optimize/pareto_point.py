@@ -15,7 +15,7 @@ from fluxbore.optimize.pareto_lanes import Ask
 from fluxbore.optimize.pareto_scalar import Scalarisation
 from fluxbore.optimize.pareto_sight import Sight
 from fluxbore.optimize.pareto_slope import Conditions, met_at
-from fluxbore.optimize.problem import Point, show_limit, violation
+from fluxbore.optimize.problem import Point, show_limit, show_miss, violation
 from fluxbore.optimize.slopes import NoSlopesError
 
 CALLS = 1000
@@ -193,7 +193,8 @@ class PointSearch:
             return f"No design for this point could be evaluated in full. {self.reason}".strip()
         (row, _), near = min(known, key=lambda item: max(item[0]))
         words = [
-            f"{item.limit.subject} {item.limit.sense} {show_limit(self.sight.base, item.limit)} by {-item.margin:.2%}"
+            f"{item.limit.subject} {item.limit.sense} {show_limit(self.sight.base, item.limit)} "
+            f"by {show_miss(self.sight.base, item)}"
             for item in near.checks
             if not item.satisfied and item.margin is not None
         ]

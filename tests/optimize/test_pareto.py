@@ -250,11 +250,13 @@ def test_designs_that_fail_cost_themselves_only(method, model):
         assert math.sqrt(point.first) + math.sqrt(point.second) == pytest.approx(1, abs=3e-3)
 
 
-def test_a_study_that_nothing_meets_says_what_is_missed():
-    result = front(toys.study(stray=0.5, points=3), toys.quadratic)
+@pytest.mark.parametrize(("limit", "missed"), [(0.5, "0.5 T by 100.00%."), (0.0, "0 T by 1 T.")])
+def test_a_study_that_nothing_meets_says_what_is_missed(limit, missed):
+    """Catches a share of a limit of zero, which has no size."""
+    result = front(toys.study(stray=limit, points=3), toys.quadratic)
     assert result.front == ()
     assert len(result.failed) == 2
-    assert "stray_field <= 0.5 T by 100.00%" in result.stop_reason
+    assert f"stray_field <= {missed}" in result.stop_reason
     assert result.anchors == (None, None)
     assert result.hypervolume is None
     assert result.ending == "done"
