@@ -17,6 +17,7 @@ from fluxbore.design import (
     manufacture,
     pneumatics,
     pressure_vessel,
+    seal,
     thermal,
     winding,
 )
@@ -74,7 +75,7 @@ def common_figures(spec: Spec, actuator: HybridActuator) -> Performance:
             actuator, _material(spec, "actuator.shaft.material"), spec.word("actuator.shaft.ends")
         ),
         seal_friction=friction.kinetic_friction(
-            _seal(spec), friction.contact_area(actuator), pressure, spec.number("operating_point.speed")
+            _seal(spec), seal.contact_area(actuator), pressure, spec.number("operating_point.speed")
         ),
         fill_factor=winding.copper_fill(actuator),
         winding_layers=manufacture.winding_layers(actuator, wire),

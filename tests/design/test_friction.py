@@ -4,16 +4,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fluxbore.design.friction import SealFriction, contact_area, deformed_length, kinetic_friction
-from fluxbore.design.hybrid import HybridActuator
+from fluxbore.design.friction import SealFriction, kinetic_friction
 
 TABLE_IV = SealFriction(0.182, 0.127, 20.5, 0.00132, 0.0)
-
-
-def test_the_fin_of_table_iii(table_ii: HybridActuator) -> None:
-    """Equation (4) with D_c': 0.412 mm of the rounded inputs; the published 0.407 mm gives the published 20.6 mm^2."""
-    assert deformed_length(table_ii) == pytest.approx(0.4123e-3, abs=5e-8)
-    assert contact_area(table_ii) == pytest.approx(20.6e-6 * 0.4123 / 0.407, rel=2e-3)
 
 
 @pytest.mark.parametrize(
