@@ -179,6 +179,7 @@ def _clash(item: Check, weight: float | None = None, worst: float = 0.0) -> Clas
         relative,
         None if weight is None else float(weight),
         alone,
+        scale=limit.scale,
     )
 
 

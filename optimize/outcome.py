@@ -39,8 +39,7 @@ class Check:
     safety is limited bears no load: that limit is satisfied.
 
     margin : positive where the limit holds with room to spare, relative to the limit's size, 1 where nothing bears a
-    load, None where nothing is known; active : within the
-    search's tolerance of the limit.
+    load, None where nothing is known; active : within the search's tolerance of the limit.
     """
 
     limit: Limit
@@ -48,6 +47,11 @@ class Check:
     margin: float | None
     satisfied: bool
     active: bool
+
+    @property
+    def unloaded(self) -> bool:
+        """Whether the limit is on the safety of a part that bears no load."""
+        return self.value is None and self.margin is not None
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,7 +105,7 @@ class Clash:
     """A limit or a bound that takes part in a conflict.
 
     missed : SI, >= 0, how far the least infeasible design is beyond it; 0 for a bound. relative : the same of the
-    limit's size.
+    limit's size. scale : as the limit's, SI; None where its size is its own number.
     weight : of this one in the conflict, their sum over the limits being 1: moving it by 1 % of its size (a bound by
     1 % of its range) brings the worst miss down by weight x 1 %; None where there are no gradients or the least
     infeasible design was not found. alone : SI, how far it would have to give way, alone, for every limit to hold, to
@@ -117,6 +121,7 @@ class Clash:
     weight: float | None = None
     alone: float | None = None
     bound: bool = False
+    scale: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,6 +136,12 @@ class Conflict:
     worst: float
     clashes: tuple[Clash, ...]
     settled: bool = False
+
+    @property
+    def unscaled(self) -> Clash | None:
+        """The clash that is missed the most, where that is no share of its limit."""
+        most = max(self.clashes, key=lambda clash: clash.relative, default=None)
+        return None if most is None or most.scale is None else most
 
 
 @dataclass(frozen=True, slots=True)

@@ -53,6 +53,7 @@ def prices(spec: Spec, search: SearchResult, objective: Objective | None) -> Tab
         scale = subject_scale(spec, item.subject, [item.value, item.limit])
         step, bought = _bought(spec, objective, item)
         share = percent(0.01 * item.share, 2) + (" (1\u00a0% of its range)" if item.bound else "")
+        share = share if item.limit or item.bound else DASH  # nothing is a share of a limit of zero
         rows.append((Cell(_named(spec, item)), Cell(scale.quantity(item.value)), Cell(step), Cell(bought), Cell(share)))
     better = "larger" if objective.maximise else "smaller"
     return Table(
@@ -79,15 +80,22 @@ def conflict(spec: Spec, found: Conflict) -> tuple[str, Table]:
         f"{key_label(spec, key)} {key_scale(spec, key, [value]).quantity(value)}" for key, value in found.values.items()
     )
     sure = "" if found.settled else " as far as the search went"
+    most = found.unscaled
+    worst = (
+        percent(found.worst)
+        if most is None
+        else difference(subject_measure(spec, most.subject, most.limit), most.missed)
+    )
     text = (
         f"These limits exclude one another: the nearest design{sure} ({where}) still misses the worst of them by "
-        f"{percent(found.worst)}."
+        f"{worst}."
     )
     rows = []
     for item in found.clashes:
         unit = subject_measure(spec, item.subject, item.limit)
         scale = subject_scale(spec, item.subject, [item.value, item.limit])
-        missed = f"{difference(unit, item.missed)} ({percent(item.relative)})" if item.missed > 0 else DASH
+        share = f" ({percent(item.relative)})" if item.scale is None else ""
+        missed = f"{difference(unit, item.missed)}{share}" if item.missed > 0 else DASH
         weight = percent(item.weight) if item.weight is not None and not item.bound else DASH
         alone = difference(unit, item.alone) if item.alone is not None and item.alone > 0 else DASH
         rows.append(

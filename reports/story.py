@@ -23,6 +23,7 @@ from fluxbore.reports.wording import (
     key_range,
     key_scale,
     listing,
+    room_text,
     significant,
     subject_label,
     subject_scale,
@@ -81,7 +82,7 @@ def reached(content: ReportContent) -> Cell:
         return Cell(f"{len(broken)} of {len(checks)} requirements are not met: {names}.", "bad")
     if not checks:
         return Cell("The design was evaluated; no requirement was set.", "warn" if design.warnings else "muted")
-    open_ = sum(check.value is None for check in checks)
+    open_ = sum(check.margin is None for check in checks)
     if open_:
         return Cell(
             f"{len(checks) - open_} of {len(checks)} requirements are met; {open_} could not be checked.", "muted"
@@ -177,12 +178,19 @@ def _left_by_rounding(content: ReportContent) -> str:
     if search is None or search.best is None or search.chosen is not search.rounded:
         return ""
     used = {(check.limit.subject, check.limit.sense) for check in search.best.checks if check.active}
-    left = [
-        f"{100 * check.margin:.2g}\u00a0% of the limit on the {subject_label(content.spec, check.limit.subject)}"
-        for check in content.design_checks
-        if (check.limit.subject, check.limit.sense) in used and not check.active and check.margin is not None
-    ]
-    return f"Rounding to the workshop’s steps left {listing(left)} unused." if left else ""
+    left, free = [], []
+    for check in content.design_checks:
+        if (check.limit.subject, check.limit.sense) not in used or check.active or check.margin is None:
+            continue
+        label = f"the {subject_label(content.spec, check.limit.subject)}"
+        if check.unloaded:
+            free.append(label)
+        else:
+            share = "of" if check.limit.scale is None else "to"
+            left.append(f"{room_text(content.spec, check.limit, check.margin)} {share} the limit on {label}")
+    found = [f"Rounding to the workshop’s steps left {listing(left)} unused."] if left else []
+    found += [f"Rounding left {listing(free)} without a load."] if free else []
+    return " ".join(found)
 
 
 def _nearest_step(content: ReportContent) -> str:

@@ -22,6 +22,7 @@ from fluxbore.reports.wording import (
     limit_text,
     listing,
     meaning,
+    room_text,
     subject_label,
     subject_scale,
     symbol,
@@ -92,7 +93,7 @@ def requirements(content: ReportContent) -> Table | None:
         wanted = limit_text(content.spec, limit) + (" (from the start)" if limit.subject in relative else "")
         cells = [
             Cell(capital(subject_label(content.spec, limit.subject))),
-            verdict(check),
+            verdict(content.spec, check),
             Cell(wanted),
             Cell(scale.quantity(check.value)),
         ]
@@ -103,12 +104,15 @@ def requirements(content: ReportContent) -> Table | None:
     return Table("Requirements and whether the design meets them", head, tuple(rows), words=frozenset({1, 2}))
 
 
-def verdict(check: Check) -> Cell:
+def verdict(spec: Spec, check: Check) -> Cell:
     """Whether a limit holds, in words; by how much it is broken, since rounded figures can look equal."""
+    if check.unloaded:
+        return Cell("✓ met, without load", "good")
     if check.value is None:
         return Cell("? not checked", "muted") if check.satisfied else Cell("✗ not known, so not met", "bad")
     if not check.satisfied:
-        by = f" by {100 * -check.margin:.2g}\u00a0%" if check.margin is not None and check.margin < 0 else ""
+        missed = check.margin if check.margin is not None and check.margin < 0 else None
+        by = f" by {room_text(spec, check.limit, missed)}" if missed is not None else ""
         return Cell(f"✗ broken{by}", "bad")
     return Cell("✓ met, at its limit" if check.active else "✓ met", "good")
 
@@ -251,10 +255,11 @@ def _against(start: Candidate, item: Candidate) -> str:
 def _unknown(content: ReportContent, item: Candidate) -> list[str]:
     """The figures under a limit that the candidate's route cannot give."""
     subjects = dict.fromkeys(limit.subject for limit in content.spec.study.constraints)
+    unloaded = {check.limit.subject for check in item.checks if check.unloaded}
     return [
         figure_label(name)
         for name in subjects
-        if name in FIGURES and getattr(item.evaluation.performance, name) is None
+        if name in FIGURES and name not in unloaded and getattr(item.evaluation.performance, name) is None
     ]
 
 

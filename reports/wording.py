@@ -225,6 +225,13 @@ def limit_text(spec: Spec, limit: Limit) -> str:
     return f"{'at most' if limit.sense == '<=' else 'at least'} {shown}"
 
 
+def room_text(spec: Spec, limit: Limit, margin: float) -> str:
+    """The size of a relative margin: ``0.17 %`` of the limit, or in its unit where that is no share of its number."""
+    if limit.scale is None:
+        return f"{100 * abs(margin):.2g}\u00a0%"
+    return difference(subject_measure(spec, limit.subject, limit.scale), abs(margin) * limit.scale, 2)
+
+
 def change(before: float | None, after: float | None) -> str:
     """The relative change in per cent, signed; empty where it means nothing."""
     if before is None or after is None or not before or not (math.isfinite(before) and math.isfinite(after)):

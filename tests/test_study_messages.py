@@ -100,6 +100,16 @@ def test_a_conflict_says_who_clashes_and_by_how_much(spec):
     assert found.startswith("This limit could not be met, as far as the search went; ")
 
 
+def test_a_miss_of_a_limit_of_zero_has_a_unit_and_no_share(spec):
+    """Catches a per cent of nothing: what is missed is relative to the start's value, which the reader does not see."""
+    clash = Clash("winding_room", ">=", 0.0, -1e-5, 1e-5, 0.025, 1.0, 1e-5, scale=4e-4)
+    lines = conflict_lines(spec, Conflict({RING: 2e-3}, 0.025, (clash,), settled=True))
+    assert lines[0].endswith("; it is missed by 0.01 mm:")
+    assert said(lines, "winding_room") == (
+        "winding_room at least 0 mm: found -0.01 mm, missed by 0.01 mm, weight 100 %, alone 0.01 mm would do"
+    )
+
+
 def candidate(ring: float, force: float, stray: float = 4e-4, *, held: bool = True) -> Candidate:
     evaluation = Evaluation("fem", OK, (), Performance(force_constant=force, stray_field=stray))
     check = Check(Limit("stray_field", "<=", 4.2e-4), stray, 0.1 if held else -0.1, held, False)

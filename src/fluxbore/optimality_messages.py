@@ -58,7 +58,8 @@ def conflict_lines(spec: Spec, found: Conflict) -> list[str]:
     That limits exclude one another is said only where no small step betters the worst of them.
     """
     several = len(found.clashes) > 1
-    missed = _percent(found.worst)
+    most = found.unscaled
+    missed = _percent(found.worst) if most is None else _measure(spec, most.subject, most.limit).show(most.missed)
     if not found.settled:
         what = "These limits could not be met" if several else "This limit could not be met"
         first = f"{what}, as far as the search went; the nearest design misses the worst by {missed}:"
@@ -71,7 +72,8 @@ def conflict_lines(spec: Spec, found: Conflict) -> list[str]:
         unit = _measure(spec, item.subject, item.limit)
         parts = [f"found {show_subject(item.subject, item.value)}"]
         if item.missed > 0:
-            parts.append(f"missed by {unit.show(item.missed)} ({_percent(item.relative)})")
+            share = f" ({_percent(item.relative)})" if item.scale is None else ""
+            parts.append(f"missed by {unit.show(item.missed)}{share}")
         if item.weight is not None and not item.bound:  # a bound's is on another scale
             parts.append(f"weight {100 * item.weight:.3g} %")
         if item.alone is not None and item.alone > 0:

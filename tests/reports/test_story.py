@@ -10,7 +10,7 @@ import pytest
 
 from fluxbore.design.performance import FIGURES
 from fluxbore.optimize.evaluation import NOT_CONVERGED, failure
-from fluxbore.optimize.outcome import Candidate, SearchResult
+from fluxbore.optimize.outcome import Candidate, Check, Limit, SearchResult
 from fluxbore.reports import curves, flux_picture, story, study_tables
 from fluxbore.reports.content import FluxMap, ReportContent
 from fluxbore.reports.page import render
@@ -127,6 +127,26 @@ def test_rounding_says_what_it_left(content: ReportContent) -> None:
     found = dataclasses.replace(content, search=dataclasses.replace(search, best=best, rounded=rounded))
     assert story.active(found) == (
         "Rounding to the workshop’s steps left 0.17\u00a0% of the limit on the stray field unused."
+    )
+
+
+def test_a_safety_without_a_load_is_met_and_not_left_unused(content: ReportContent) -> None:
+    """Catches "100 % of the limit unused" and "could not be checked" for a rod that is pulled and cannot buckle."""
+    search, chosen = _search(content), _chosen(content)
+    limit = Limit("buckling_safety", ">=", 3.0)
+    idle, bound = Check(limit, None, 1.0, True, False), Check(limit, 3.0, 0.0, True, True)
+    assert study_tables.verdict(content.spec, idle).text == "✓ met, without load"
+    best = dataclasses.replace(chosen, checks=(bound,), values={key: v * 1.001 for key, v in chosen.values.items()})
+    rounded = dataclasses.replace(chosen, checks=(idle,))
+    found = dataclasses.replace(content, search=dataclasses.replace(search, best=best, rounded=rounded))
+    assert story.active(found) == "Rounding left the buckling safety without a load."
+    assert story.reached(found).text == "The requirement is met."
+    room = Limit("winding_room", ">=", 0.0, scale=4e-4)
+    at_zero = dataclasses.replace(best, checks=(Check(room, 0.0, 0.0, True, True),))
+    roomy = dataclasses.replace(rounded, checks=(Check(room, 1e-5, 0.025, True, False),))
+    zero = dataclasses.replace(content, search=dataclasses.replace(search, best=at_zero, rounded=roomy))
+    assert story.active(zero) == (
+        "Rounding to the workshop’s steps left 0.01\u00a0mm to the limit on the winding room unused."
     )
 
 

@@ -13,7 +13,7 @@ from fluxbore.design.spec import loads
 from fluxbore.design.spec_file import template
 from fluxbore.design.study import Objective, Production, Tolerance
 from fluxbore.optimize.evaluation import OK, Evaluation, Norm
-from fluxbore.optimize.outcome import Clash, Conflict, Limit, Multiplier, Optimality
+from fluxbore.optimize.outcome import Check, Clash, Conflict, Limit, Multiplier, Optimality
 from fluxbore.optimize.pareto_result import FrontPoint, ParetoResult
 from fluxbore.optimize.tolerance_result import (
     FigureSpread,
@@ -25,7 +25,7 @@ from fluxbore.optimize.tolerance_result import (
     ToleranceEffect,
     ToleranceResult,
 )
-from fluxbore.reports import figure_tables, front, optimum, sensitivity, study_curves, tolerances
+from fluxbore.reports import figure_tables, front, optimum, sensitivity, study_curves, study_tables, tolerances
 from fluxbore.reports.content import ReportContent
 from fluxbore.reports.figure_sources import SOURCES, assumptions, source_text
 from fluxbore.reports.kind_words import COILS, HYBRID, PLAIN
@@ -132,6 +132,24 @@ def test_a_conflict_says_who_clashes_and_by_how_much(content: ReportContent) -> 
     assert "12.5\u00a0%" in text
     assert cells(table, "Stray field")[2:] == ["0.05 mT (12.5 %)", "60 %", "0.08 mT"]
     assert cells(table, "Ring width")[2:] == ["–", "–", "0.3 mm"]
+
+
+def test_nothing_is_a_share_of_a_limit_of_zero(content: ReportContent) -> None:
+    """Catches per cents of the start's value, which stand for per cents of the limit."""
+    room = Limit("winding_room", ">=", 0.0, scale=4e-4)
+    broken = study_tables.verdict(content.spec, Check(room, -1e-5, -0.025, False, False))
+    assert broken.text.replace("\u00a0", " ") == "✗ broken by 0.01 mm"
+    clash = Clash("winding_room", ">=", 0.0, -1e-5, 1e-5, 0.025, 1.0, 1e-5, scale=4e-4)
+    text, table = optimum.conflict(content.spec, Conflict({RING: 2e-3}, 0.025, (clash,)))
+    assert "still misses the worst of them by 0.01\u00a0mm." in text
+    assert cells(table, "Winding room")[2:] == ["0.01 mm", "100 %", "0.01 mm"]
+    assert content.search is not None
+    price = Multiplier("winding_room", ">=", 0.0, 0.0, 400.0, 0.02)
+    prices = optimum.prices(
+        content.spec, dataclasses.replace(content.search, optimality=Optimality(1e-6, (price,))), FORCE
+    )
+    assert prices is not None
+    assert cells(prices, "Winding room")[2:] == ["−1 mm", "−0.4 N/A", "–"]
 
 
 def test_sensitivities_are_per_unit_people_use(content: ReportContent) -> None:
