@@ -1,4 +1,4 @@
-"""The crash-proof store of evaluated designs: an append-only file of JSON lines.
+"""The crash-proof store of evaluated designs and simulations: an append-only file of JSON lines.
 
 A record is written with one call and forced to the disk before the design counts as done, so that a kill at any moment
 costs at most the record in flight. What the kill tore off is found and cut away when the journal is next opened.
@@ -36,6 +36,7 @@ class Journal:
         self.path = Path(path)
         self._places: dict[str, tuple[int, int]] = {}
         self._plain: dict[str, tuple[int, int]] = {}  # records with derivatives, by their keys without
+        self._notes: dict[str, tuple[int, int]] = {}  # of anything else than a design's evaluation
         try:
             self._file, self.made = _open_locked(self.path)
         except OSError as error:
@@ -86,6 +87,26 @@ class Journal:
         record = {"key": key, "kind": kind, "values": _strict(values), "evaluation": _strict(to_plain(evaluation))}
         if plain is not None:
             record["plain"] = plain
+        self._remember(key, plain, evaluation.status, self._append(record))
+        return _evaluation(record)
+
+    def noted(self, key: str) -> Any:
+        """What `note` recorded under ``key``; None where nothing was."""
+        place = self._notes.get(key)
+        found = None if place is None else _note(self._bytes(*place))
+        return None if found is None else found[1]
+
+    def note(self, key: str, kind: str, content: Mapping[str, Any]) -> Any:
+        """Record another result than a design's evaluation, as JSON has it; returns it exactly as `noted` will.
+
+        kind : what it is of ("simulation"), for whoever reads the file. Raises OutputError as `put` does.
+        """
+        record = {"key": key, "kind": kind, "content": _strict(content)}
+        self._notes[key] = self._append(record)
+        return record["content"]
+
+    def _append(self, record: Mapping[str, Any]) -> tuple[int, int]:
+        """Force one line to the disk; where it stands."""
         line = json.dumps(record, allow_nan=False, separators=(",", ":")).encode() + b"\n"
         begin = os.fstat(self._file).st_size
         try:
@@ -97,8 +118,7 @@ class Journal:
             # Half a line would spoil the next record as well.
             os.ftruncate(self._file, begin)
             raise OutputError(f"{self.path} cannot be written: {error.strerror or error}.") from error
-        self._remember(key, plain, evaluation.status, (begin, len(line)))
-        return _evaluation(record)
+        return begin, len(line)
 
     def _remember(self, key: str, plain: object, status: str, place: tuple[int, int]) -> None:
         if status != FAILED:
@@ -134,10 +154,13 @@ class Journal:
         with open(self._file, "rb", closefd=False) as file:
             for line in file:
                 record = _record(line)
+                note = None if record is not None else _note(line)
                 whole = line.endswith(b"\n")
                 if record is not None:
                     self._remember(record[0], record[2], record[1].status, (begin, len(line)))
-                if not whole and record is not None:
+                if note is not None:
+                    self._notes[note[0]] = (begin, len(line))
+                if not whole and (record is not None or note is not None):
                     os.write(self._file, b"\n")  # only the line's end was torn off
                 elif not whole:
                     os.ftruncate(self._file, begin)
@@ -157,6 +180,16 @@ def _record(line: bytes) -> tuple[str, Evaluation, object] | None:
     except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
         return None
     return (key, evaluation, plain) if isinstance(key, str) and isinstance(evaluation.status, str) else None
+
+
+def _note(line: bytes) -> tuple[str, Any] | None:
+    """Key and content of a line that `Journal.note` wrote, or None."""
+    try:
+        record = json.loads(line)
+        key, content = record["key"], record["content"]
+    except (ValueError, TypeError, KeyError, RecursionError):
+        return None
+    return (key, content) if isinstance(key, str) else None
 
 
 def _evaluation(record: Mapping[str, Any]) -> Evaluation:

@@ -34,6 +34,29 @@ def test_an_evaluation_comes_back_to_the_last_bit(tmp_path):
         assert journal.get("b") is None
 
 
+def test_other_results_stand_beside_designs(tmp_path):
+    """Catches a note that is taken for a design, is lost on reopening, or costs the designs around it when torn."""
+    content = {"figures": {"a": 1 / 3, "b": [1, None, "x"]}}
+    with Journal(tmp_path / "j") as journal:
+        journal.put("a", "sweep", {}, EVALUATION)
+        assert journal.note("n", "simulation", {"figures": {"a": 1 / 3, "b": (1, float("nan"), "x")}}) == content
+        assert journal.noted("n") == content
+        assert "n" not in journal
+        assert len(journal) == 1
+        journal.note("m", "simulation", content)
+    whole = (tmp_path / "j").read_bytes()
+    for cut in (1, 2, 40):
+        (tmp_path / "j").write_bytes(whole[:-cut])
+        with Journal(tmp_path / "j") as journal:
+            assert journal.noted("n") == content
+            assert journal.noted("m") == (content if cut == 1 else None)
+            assert journal.get("n") is None
+            assert journal.noted("a") is None
+            assert same(journal.put("b", "sweep", {}, EVALUATION), journal.get("a"))
+        with Journal(tmp_path / "j") as journal:
+            assert same(journal.get("b"), journal.get("a"))
+
+
 @given(st.floats(allow_nan=True, allow_infinity=True))
 def test_every_float_survives_or_is_null(tmp_path_factory, value):
     """Catches a NaN in the file, which is not JSON, and any finite float that does not read back as itself."""
