@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from fluxbore.design.performance import FIGURES, grouped
 from fluxbore.optimize.evaluation import Evaluation
+from fluxbore.optimize.noise import clear_slopes
 from fluxbore.reports.content import ReportContent
 from fluxbore.reports.tables import Cell, Table
 from fluxbore.reports.wording import (
@@ -43,6 +44,8 @@ def sensitivities(content: ReportContent) -> Sensitivities | None:
     design = next((item for item in found if item is not None and item.gradient), None)
     if design is None or not design.gradient:
         return None
+    design = replace(design, gradient=clear_slopes(content.spec, design))
+    assert design.gradient is not None
     moved = [name for name, slopes in design.gradient.items() if any(slopes.values())]
     keys = _keys(content, design)
     study = content.spec.study

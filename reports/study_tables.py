@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from fluxbore.design.performance import FIGURES
 from fluxbore.design.spec import Spec
 from fluxbore.design.study import Objective
+from fluxbore.optimize.noise import clear_value
 from fluxbore.optimize.outcome import Candidate, Check, SearchResult
 from fluxbore.reports.content import ReportContent
 from fluxbore.reports.tables import Cell, Table, titled
@@ -30,9 +31,6 @@ from fluxbore.reports.wording import (
 
 AT_BOUND = 1e-3
 """Share of a variable's range within which it counts as standing at its bound."""
-
-NOISE = 1e-9
-"""Of a variable's range; what is smaller is zero that was computed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -227,11 +225,7 @@ def _exact(spec: Spec, key: str, value: float | None) -> str:
 
 
 def _without_noise(spec: Spec, key: str, value: float | None) -> float | None:
-    """Zero for what is next to nothing of the variable's range: a bound of zero that was computed."""
-    own = next((variable for variable in spec.study.variables if variable.key == key), None)
-    if own is None or value is None:
-        return value
-    return 0.0 if abs(value) < NOISE * (own.upper - own.lower) else value
+    return None if value is None else clear_value(spec, key, value)
 
 
 def _named(name: str, item: Candidate, search: SearchResult) -> str:

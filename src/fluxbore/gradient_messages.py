@@ -6,7 +6,7 @@ from fluxbore.design.performance import FIGURES, show_figure
 from fluxbore.design.rates import show_rate
 from fluxbore.design.spec import Spec
 from fluxbore.optimize.evaluation import Evaluation
-from fluxbore.value_text import NOISE
+from fluxbore.optimize.noise import clear_slopes
 
 COUNTED = ("demagnetised_fraction", "peak_demagnetised_fraction")
 """Figures that are shares of points: they jump from one to the next."""
@@ -16,8 +16,7 @@ def gradient_text(spec: Spec, evaluation: Evaluation) -> str:
     """What one unit more of each key does to each figure, the others staying as they are."""
     lines = ["What one unit more of a variable changes, all others and the held keys staying as they are:"]
     norms, unmoved = evaluation.norms or {}, []
-    for figure, found in (evaluation.gradient or {}).items():
-        slopes = {key: _without_noise(spec, evaluation, figure, key, slope) for key, slope in found.items()}
+    for figure, slopes in clear_slopes(spec, evaluation).items():
         if not any(slopes.values()):
             unmoved.append(figure)
             continue
@@ -45,11 +44,3 @@ def _without(evaluation: Evaluation) -> list[str]:
     others = [name for name in bare if name not in COUNTED]
     lines = [f"No derivatives, for they count points: {', '.join(counted)}."] if counted else []
     return lines + ([f"No derivatives: {', '.join(others)}."] if others else [])
-
-
-def _without_noise(spec: Spec, evaluation: Evaluation, figure: str, key: str, slope: float) -> float:
-    """Zero where the variable's whole range would move the figure by next to nothing of its value."""
-    own = next((variable for variable in spec.study.variables if variable.key == key), None)
-    span = own.upper - own.lower if own is not None else abs(spec.number(key))
-    value = abs(getattr(evaluation.performance, figure) or 0.0)
-    return 0.0 if abs(slope) * span < NOISE * value else slope

@@ -9,9 +9,7 @@ from fluxbore.design.performance import FIGURES, show_figure
 from fluxbore.design.rates import measure_of_key
 from fluxbore.design.spec import KINDS, Spec
 from fluxbore.design.study import Tolerance
-
-NOISE = 1e-9
-"""Of a scale; what is smaller is zero that was computed."""
+from fluxbore.optimize.noise import clear_value
 
 
 def route(spec: Spec, fidelity: str) -> str:
@@ -37,9 +35,7 @@ def show_subject(subject: str, value: float, digits: int = 6) -> str:
 
 def show_variable(spec: Spec, name: str, value: float) -> str:
     """A variable's value in its preferred unit; rounding's noise about zero is zero."""
-    own = next((variable for variable in spec.study.variables if variable.key == name), None)
-    noise = NOISE * (own.upper - own.lower) if own is not None else 0.0
-    return show_key(spec, name, 0.0 if abs(value) < noise else value)
+    return show_key(spec, name, clear_value(spec, name, value))
 
 
 def short_names(keys: Iterable[str]) -> dict[str, str]:
