@@ -21,6 +21,7 @@ from fluxbore.design.materials import Conductor, lookup
 from fluxbore.design.performance import Performance
 from fluxbore.design.spec import Spec
 from fluxbore.optimize.evaluation import NOT_CONVERGED, OK, Evaluation, Gradient, failure
+from fluxbore.optimize.partials import differentiable
 
 if TYPE_CHECKING:
     from fluxbore.design.coils_surface import Spot
@@ -67,16 +68,13 @@ def by_fem(spec: Spec, gradient: Sequence[str] = ()) -> Evaluation:
 
 
 def _gradient(spec: Spec, keys: Sequence[str], metal: Conductor, spots: Sequence[Spot]) -> Gradient:
-    """Figure -> key -> derivative, for the keys that hold a continuous quantity of the design.
+    """Figure -> key -> derivative, for the keys that hold a continuous quantity of the design, given or by default.
 
     A key that the design is not given by takes the place of an alternative, as `Spec.pinned` has it.
     """
     base = spec.pinned(keys)
     slopes: dict[str, dict[str, float]] = {}
-    for name in keys:
-        key = base.kind.known(name)
-        if key.kind not in ("quantity", "number") or name not in base.given:
-            continue
+    for name in differentiable(base, keys):
         moved: dict[str, Any] = {**base.given, name: base.number(name) + 1j * STEP}
         for figure, value in _figures(base.kind.resolve(moved), metal, spots).items():
             slopes.setdefault(figure, {})[name] = float(value.imag) / STEP if isinstance(value, complex) else 0.0
