@@ -29,6 +29,14 @@ class MeshError(FluxboreError):
     """A drawing cannot be meshed: curves cross, a face has no label, or the mesh would be too large."""
 
 
+class MeasurementError(FluxboreError):
+    """A file of measurements cannot be read: a number is none, a column is missing, there are too few rows."""
+
+
+class IdentificationError(FluxboreError):
+    """Measurements do not tell a model's parameters; the text names which, and what would tell them."""
+
+
 class OutputError(FluxboreError):
     """Something cannot be written, or a folder holds the results of another specification."""
 
