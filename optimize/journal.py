@@ -84,7 +84,7 @@ class Journal:
         plain : the design's key without the derivatives that ``key`` asks for.
         Raises OutputError where the disk is full or gone.
         """
-        record = {"key": key, "kind": kind, "values": _strict(values), "evaluation": _strict(to_plain(evaluation))}
+        record = {"key": key, "kind": kind, "values": strict(values), "evaluation": strict(to_plain(evaluation))}
         if plain is not None:
             record["plain"] = plain
         self._remember(key, plain, evaluation.status, self._append(record))
@@ -101,7 +101,7 @@ class Journal:
 
         kind : what it is of ("simulation"), for whoever reads the file. Raises OutputError as `put` does.
         """
-        record = {"key": key, "kind": kind, "content": _strict(content)}
+        record = {"key": key, "kind": kind, "content": strict(content)}
         self._notes[key] = self._append(record)
         return record["content"]
 
@@ -200,18 +200,18 @@ def _evaluation(record: Mapping[str, Any]) -> Evaluation:
 
 def settled(evaluation: Evaluation) -> Evaluation:
     """The evaluation as a journal would give it back, so that a run with one and a run without see the same."""
-    return _evaluation({"evaluation": _strict(to_plain(evaluation))})
+    return _evaluation({"evaluation": strict(to_plain(evaluation))})
 
 
-def _strict(value: Any) -> Any:
+def strict(value: Any) -> Any:
     """The value with null for what is not finite: JSON has no NaN. Finite floats keep every bit (repr)."""
     if isinstance(value, float):
         return float(value) if math.isfinite(value) else None
     if isinstance(value, Mapping):
-        return {name: _strict(item) for name, item in value.items()}
+        return {name: strict(item) for name, item in value.items()}
     if isinstance(value, (list, tuple)):
-        return [_strict(item) for item in value]
-    return _strict(value.item()) if hasattr(value, "item") else value  # numpy's numbers are Python's here
+        return [strict(item) for item in value]
+    return strict(value.item()) if hasattr(value, "item") else value  # numpy's numbers are Python's here
 
 
 def _open_locked(path: Path) -> tuple[int, bool]:

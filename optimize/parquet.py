@@ -30,7 +30,7 @@ def results_parquet(spec: Spec, sweeps: Sequence[SweepResult], candidates: Seque
     ``specification`` that it belongs to, as a hash. The same rows give the same bytes.
     Raises MissingLibraryError without pyarrow.
     """
-    arrow, parquet = _load_pyarrow()
+    arrow, parquet = load_pyarrow(FILE_NAME)
     keys = moved_keys(sweeps, candidates)
     rows = list(cells(spec, keys, sweeps, candidates))
     known = {key.name: key for key in spec.kind.keys}
@@ -64,10 +64,11 @@ def _float(value: Cell) -> float | None:
     return None if value is None else float(value)
 
 
-def _load_pyarrow() -> tuple[Any, Any]:
+def load_pyarrow(file: str) -> tuple[Any, Any]:
+    """pyarrow and its Parquet part; MissingLibraryError where the file cannot be written without."""
     try:
         import pyarrow
         import pyarrow.parquet
     except ImportError as error:
-        raise MissingLibraryError(f"{FILE_NAME} needs pyarrow ({error}); get it by: pip install pyarrow") from error
+        raise MissingLibraryError(f"{file} needs pyarrow ({error}); get it by: pip install pyarrow") from error
     return pyarrow, pyarrow.parquet

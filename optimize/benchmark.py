@@ -1,0 +1,120 @@
+"""What a benchmark in simulated time is, and what comes of putting designs through it, whatever their kind."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from fluxbore.design.dynamics.simulation import Simulation
+from fluxbore.design.keys import Value
+from fluxbore.design.spec import Spec
+from fluxbore.optimize.evaluation import OK, Evaluation
+
+Simulate = Callable[[Spec, Any, int, bool], Simulation]
+
+
+@dataclass(frozen=True, slots=True)
+class Published:
+    """A benchmark's figure beside the one that a source gives.
+
+    path : of the figure in `Simulation.figures`. label : in words. dimension : of `fluxbore.design.units`, or "count".
+    value : as published (SI), None where the source gives none. within : the difference (SI) up to which the figure
+    counts as reproduced. note : where the published value stands, or how it follows.
+    """
+
+    path: tuple[str, ...]
+    label: str
+    dimension: str
+    value: float | None = None
+    within: float | None = None
+    note: str = ""
+
+    def of(self, figures: Mapping[str, Any]) -> float | None:
+        """The figure itself; None where the simulation has none."""
+        found: Any = figures
+        for name in self.path:
+            found = found.get(name) if isinstance(found, Mapping) else None
+        return None if found is None else float(found)
+
+    def reproduced(self, figures: Mapping[str, Any]) -> bool | None:
+        """Whether the figure is as near as `within`; None where there is nothing to hold it against."""
+        found = self.of(figures)
+        if found is None or self.value is None or self.within is None:
+            return None
+        return abs(found - self.value) <= self.within
+
+
+@dataclass(frozen=True, slots=True)
+class Benchmark:
+    """An experiment in simulated time that one kind of actuator can be put through.
+
+    name : on the command line, and that of its section of keys, ``benchmark.mcfc``. title : what it is, in words.
+    source : whose experiment it is. designs : of a design, those around it, by their values, whose evaluations show
+    the field that the simulation moves through. field : what the simulation takes of those evaluations. simulate : one
+    seed, with traces or without; a worker finds it by its name, so it stands in a module. settings, results : columns
+    of a trial with their dimensions. published : the figures that a table shows. limits : what agreement with the
+    source does not show, in sentences.
+    """
+
+    name: str
+    title: str
+    source: str
+    designs: Callable[[Spec], Sequence[Mapping[str, Value]]]
+    field: Callable[[Spec, Sequence[Evaluation]], Any]
+    simulate: Simulate
+    published: tuple[Published, ...] = ()
+    limits: tuple[str, ...] = ()
+
+    @property
+    def section(self) -> str:
+        """The dotted prefix of its keys."""
+        return f"benchmark.{self.name}."
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class DesignRun:
+    """One design put through a benchmark.
+
+    label : what it is called beside others. evaluation : of the design as it is. field : what `Benchmark.field` made.
+    simulations : by seed, in the order asked for; the first of the study's own design holds its traces. figures : the
+    median of each over the seeds. reasons : why there are none, in sentences.
+    """
+
+    label: str
+    spec: Spec
+    evaluation: Evaluation
+    field: Any
+    simulations: tuple[Simulation, ...]
+    figures: Mapping[str, Any]
+    status: str
+    reasons: tuple[str, ...] = ()
+
+    @property
+    def ok(self) -> bool:
+        return self.status == OK
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class BenchmarkResult:
+    """A benchmark's runs: of the specification's own design, and of those that it is set against.
+
+    reused : simulations that had not to be computed. files : what was written.
+    """
+
+    benchmark: Benchmark
+    seeds: tuple[int, ...]
+    run: DesignRun
+    against: tuple[DesignRun, ...] = ()
+    reused: int = 0
+    files: tuple[Path, ...] = ()
+
+    @property
+    def ok(self) -> bool:
+        return self.run.ok
+
+    @property
+    def runs(self) -> tuple[DesignRun, ...]:
+        """All of them, the specification's own first."""
+        return (self.run, *self.against)
