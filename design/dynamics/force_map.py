@@ -31,3 +31,13 @@ class ForceMap:
     def mean_force_constant(self) -> float:
         """Over the map's positions (N/A)."""
         return float(np.mean(self.force_constant))
+
+    def within(self, low: float, high: float) -> ForceMap:
+        """The same map between two positions (m), both with values of their own."""
+        inside = self.position[(self.position > low) & (self.position < high)]
+        position = np.unique(np.concatenate(([low], inside, [high])))
+        return ForceMap(
+            position,
+            np.interp(position, self.position, self.force_constant),
+            np.interp(position, self.position, self.cogging),
+        )
