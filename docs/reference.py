@@ -50,6 +50,13 @@ STUDY = """
 | `study.production.tolerances.N.distribution` | DISTRIBUTIONS | the limits of a normal one are at 3 sigma |
 """
 
+SHARES = """
+A limit on a share and the yield also take a percentage in quotes: `"55 %"` is 0.55. Shares are
+SHARES.
+The design's own plain numbers take no percentage. What `"0.8 x start"` means where the start is negative stands in
+[Searching](optimisation.md).
+"""
+
 FEMM_UNITS = {
     "current": "A",
     "potential": "Wb/m",
@@ -117,7 +124,8 @@ def study_keys() -> list[str]:
         default = "" if key.default is None else f"; default {key.show(key.default)}"
         what = key.dimension if key.kind == "quantity" else holds.get(key.kind, "a number")
         lines.append(f"| `{key.name}` | {what}{default} | {key.doc} |")
-    return lines
+    shares = ", ".join(f"`{figure.name}`" for figure in FIGURES.values() if figure.dimension == "fraction")
+    return [*lines, *SHARES.rstrip().replace("SHARES", shares).splitlines()]
 
 
 def page() -> str:
