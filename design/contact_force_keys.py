@@ -63,7 +63,7 @@ CONTACT_FORCE_KEYS: tuple[Key, ...] = (
         symbol="sigma_0",
         above=0.0,
         maximum=1e10,
-        default=9.6e4,
+        default=1e5,
     ),
     Key(
         "benchmark.mcfc.bristle_damping",
@@ -82,7 +82,7 @@ CONTACT_FORCE_KEYS: tuple[Key, ...] = (
         maximum=10.0,
         default=1.0,
     ),
-    _time("valve_delay", "dead time of the pressure control valve", 0.018),
+    _time("valve_delay", "dead time of the pressure control valve", 0.02),
     Key(
         "benchmark.mcfc.valve_lag",
         "time constant of the chamber's pressure under the pressure control valve",
@@ -97,7 +97,7 @@ CONTACT_FORCE_KEYS: tuple[Key, ...] = (
         dimension="volume",
         above=0.0,
         maximum=1.0,
-        default=40e-6,
+        default=30e-6,
     ),
     Key(
         "benchmark.mcfc.gas_exponent",
@@ -135,27 +135,12 @@ CONTACT_FORCE_KEYS: tuple[Key, ...] = (
     ),
     _time("velocity_filter", "time constant of the first-order filter behind the encoder's difference", 0.0256),
     Key(
-        "benchmark.mcfc.ripple",
-        "amplitude of a force over position beyond friction and cogging",
-        dimension="force",
-        minimum=0.0,
-        maximum=1e6,
-        default=0.5,
-    ),
-    Key(
-        "benchmark.mcfc.ripple_pitch",
-        "period of that force over position",
-        minimum=1e-6,
-        maximum=10.0,
-        default=1e-3,
-    ),
-    Key(
         "benchmark.mcfc.noise",
         "standard deviation of one reading of the load cell",
         dimension="force",
         minimum=0.0,
         maximum=1e6,
-        default=0.42,
+        default=0.2,
     ),
     Key(
         "benchmark.mcfc.time_step",

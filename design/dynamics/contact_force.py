@@ -59,18 +59,20 @@ def simulate(
     seed: int,
     *,
     moving_mass: float | None = None,
+    contact_force: float | None = None,
     traces: bool = False,
 ) -> Simulation:
     """All 144 runs.
 
     values : resolved, of the specification. force_map : over the positions the benchmark passes. seed : of the
-    encoder's phases and the load cell's noise, drawn for every run by itself. moving_mass : of the mover (kg), where
-    `benchmark.mcfc.moving_mass` is not given. traces : whether trials keep theirs.
+    encoder's phases and the load cell's noise, drawn for every run by itself. moving_mass, contact_force : of the mover
+    (kg), and F_0 of its fins (N), where `benchmark.mcfc.moving_mass` and `actuator.seal.contact_force` are not given.
+    traces : whether trials keep theirs.
 
     Trials come by frequency, target and condition; their figures are mean_speed (m/s) and rmse (N), which includes
     the load cell's noise. Raises SpecError.
     """
-    plant = ContactForcePlant.from_values(actuator, values, force_map, moving_mass)
+    plant = ContactForcePlant.from_values(actuator, values, force_map, moving_mass, contact_force)
     trials = []
     for i, frequency in enumerate(FREQUENCIES):
         driven = drive(plant, frequency)
@@ -128,13 +130,15 @@ def statistics(trials: tuple[Trial, ...]) -> dict[str, Any]:
     }
 
 
-def untuned_rmse(actuator: HybridActuator, values: Values) -> Mapping[tuple[float, float], float]:
+def untuned_rmse(
+    actuator: HybridActuator, values: Values, contact_force: float | None = None
+) -> Mapping[tuple[float, float], float]:
     """(target (N), frequency (Hz)) -> error without compensation (N), by (6) alone: |f_k| at the speed 2 f stroke.
 
     No plant and no choice but the disturbance's stroke: the mover slides at one speed, and the friction is all that
-    the contact force misses. For the targets that count.
+    the contact force misses. For the targets that count; contact_force as in `simulate`.
     """
-    law, area, stroke = seal_law(values), contact_area(actuator), float(values["benchmark.mcfc.stroke"])
+    law, area, stroke = seal_law(values, contact_force), contact_area(actuator), float(values["benchmark.mcfc.stroke"])
     return {
         (target, frequency): kinetic_friction(law, area, target / piston_area(actuator), 2 * frequency * stroke)
         for target in COUNTED

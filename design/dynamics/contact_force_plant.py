@@ -51,8 +51,6 @@ class ContactForcePlant:
     valve_delay: float
     driver_delay: float
     driver_lag: float
-    ripple: float
-    ripple_pitch: float
     noise: float
     steps: int
 
@@ -66,24 +64,26 @@ class ContactForcePlant:
 
     @classmethod
     def from_values(
-        cls, actuator: HybridActuator, values: Values, force_map: ForceMap, moving_mass: float | None = None
+        cls,
+        actuator: HybridActuator,
+        values: Values,
+        force_map: ForceMap,
+        moving_mass: float | None = None,
+        contact_force: float | None = None,
     ) -> ContactForcePlant:
         """The plant of these resolved values.
 
-        moving_mass : of the actuator's mover (kg), which `benchmark.mcfc.moving_mass` replaces. Raises SpecError
-        where neither is given, or the chamber is smaller than the disturbance.
+        moving_mass : of the actuator's mover (kg), which `benchmark.mcfc.moving_mass` replaces. contact_force : F_0 of
+        its fins (N), which `actuator.seal.contact_force` replaces. Raises SpecError where neither of a pair is given,
+        the chamber is smaller than the disturbance, or the disturbance leaves the mover's stroke.
         """
 
         def number(name: str) -> float:
             return float(values[f"benchmark.mcfc.{name}"])
 
-        area, law = pneumatics.piston_area(actuator), seal_law(values)
+        area, law = pneumatics.piston_area(actuator), seal_law(values, contact_force)
         share, period, stroke = number("friction_share"), number("control_period"), number("stroke")
-        own_mass = values.get("benchmark.mcfc.moving_mass", moving_mass)
-        if own_mass is None:
-            raise SpecError(
-                "benchmark.mcfc.moving_mass must be given where the mover's own mass is not known; got none."
-            )
+        mass = _own("benchmark.mcfc.moving_mass", values, moving_mass)
         least = OVERSHOOT * stroke * area
         if number("chamber_volume") < least:
             raise SpecError(
@@ -118,21 +118,39 @@ class ContactForcePlant:
             force_constant=constant,
             position=position,
             stroke=stroke,
-            moving_mass=float(own_mass),
+            moving_mass=mass,
             valve_delay=number("valve_delay"),
             driver_delay=number("driver_delay"),
             driver_lag=number("driver_lag"),
-            ripple=number("ripple"),
-            ripple_pitch=number("ripple_pitch"),
             noise=number("noise"),
             steps=max(1, math.ceil(period / number("time_step") - 1e-9)),
         )
 
 
-def seal_law(values: Values) -> SealFriction:
-    """Equation (6) with the parameters of `actuator.seal`."""
-    names = ("static_coefficient", "coulomb_coefficient", "contact_force", "stribeck_speed", "viscous_coefficient")
-    return SealFriction(*(float(values[f"actuator.seal.{name}"]) for name in names))
+def seal_law(values: Values, contact_force: float | None = None) -> SealFriction:
+    """Equation (6) with the parameters of `actuator.seal`.
+
+    contact_force : F_0 (N) where `actuator.seal.contact_force` is not given. Raises SpecError where neither is.
+    """
+
+    def number(name: str) -> float:
+        return float(values[f"actuator.seal.{name}"])
+
+    return SealFriction(
+        number("static_coefficient"),
+        number("coulomb_coefficient"),
+        _own("actuator.seal.contact_force", values, contact_force),
+        number("stribeck_speed"),
+        number("viscous_coefficient"),
+    )
+
+
+def _own(key: str, values: Values, computed: float | None) -> float:
+    """What the specification gives, else what was computed of the design."""
+    value = values.get(key, computed)
+    if value is None:
+        raise SpecError(f"{key} must be given where it is not computed of the design; got none.")
+    return float(value)
 
 
 def passed_positions(actuator: HybridActuator, values: Values) -> tuple[float, float]:

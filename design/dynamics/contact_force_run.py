@@ -4,7 +4,6 @@
     position -> counts -> velocity estimate -> friction by (6) at the target pressure        (each control period)
     P-P: target pressure + friction/S -> dead time -> valve and chamber -> P
     P-E: friction/K -> dead time -> lag -> current -> force map
-    contact force = S P + F(z, i) + ripple - friction(v, P) - m a
 
 Pushing in +z, the mover advances against the load with its friction missing from the force, and is pushed back with
 the friction on top (Nakata and Noda 2023, Sec. III and IV-D). Everything is read once a control period.
@@ -125,7 +124,6 @@ def run(
     force = (
         plant.chamber.area * still.pressure
         + plant.force_map.force(plant.position + read.position, current)
-        + plant.ripple * np.sin(2 * math.pi / plant.ripple_pitch * read.position)
         - still.friction
         - plant.moving_mass * read.acceleration
         + noise
