@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fluxbore.fem.bisection import refine_all
-from fluxbore.fem.conditions import ConditionedMesh, Conditions, conditioned_mesh
+from fluxbore.fem.conditions import ConditionedMesh, Conditions, Prescribed, conditioned_mesh
 from fluxbore.fem.conductors import circuit
 from fluxbore.fem.element import QUADRATURE_POINTS, from_frame, kernel, positions, shape
 from fluxbore.fem.facing import facing
@@ -28,6 +28,18 @@ TIGHT = Settings(tolerance=1e-10, method="auto")
 
 Scalar = Callable[[Floats], Floats]
 """(..., 2) positions in m -> (...)."""
+
+ENERGY_RATE = 3.8
+"""Least rate of energies and linkages, four in theory."""
+
+FIELD_RATE = 1.9
+"""Least rate of B in the elements, two in theory."""
+
+VACUUM = (MagneticMaterial(1.0),)
+"""Of one region, ν = 1."""
+
+NOTHING = Conditions([Prescribed(lambda points: np.zeros(points.shape[0]))])
+"""Condition 0: no flux crosses."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
