@@ -43,12 +43,17 @@ _NUMBER = re.compile(r"[+-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?")
 class Column:
     """A column that a model wants: its name, its dimension (a name of `units.DIMENSIONS`; None for a plain number).
 
-    minimum : in SI, of every value in it.
+    minimum, maximum : in SI, of every value in it.
     """
 
     name: str
     dimension: str | None
     minimum: float = -math.inf
+    maximum: float = math.inf
+
+    def show(self, value: float) -> str:
+        """A value of it in its preferred unit."""
+        return f"{value:g}" if self.dimension is None else format_quantity(value, self.dimension, 6)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -142,12 +147,10 @@ class _Reader:
             hint = " (the decimal sign is a point)" if re.fullmatch(r"[+-]?[0-9]+,[0-9]+", text) else ""
             got = shown(text) if text else "an empty cell"
             raise self._error(source, line, f"must hold finite numbers; got {got}{hint}")
-        if si < self.column.minimum:
-            limit, got = (
-                f"{value:g}" if self.column.dimension is None else format_quantity(value, self.column.dimension, 6)
-                for value in (self.column.minimum, si)
-            )
-            raise self._error(source, line, f"must be {limit} or above; got {got}")
+        column = self.column
+        if not column.minimum <= si <= column.maximum:
+            limit, side = (column.minimum, "above") if si < column.minimum else (column.maximum, "below")
+            raise self._error(source, line, f"must be {column.show(limit)} or {side}; got {column.show(si)}")
         return si
 
     def _error(self, source: str, line: int, words: str) -> MeasurementError:

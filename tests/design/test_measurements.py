@@ -14,7 +14,7 @@ from fluxbore.design.errors import MeasurementError
 from fluxbore.design.measurements import Column, parse_measurements, read_measurements
 from fluxbore.design.units import STANDARD_ATMOSPHERE
 
-COLUMNS = (Column("velocity", "speed"), Column("pressure", "pressure", 0.0), Column("force", "force"))
+COLUMNS = (Column("velocity", "speed"), Column("pressure", "pressure", 0.0), Column("force", "force", -1e6, 1e6))
 GOOD = "velocity [mm/s],pressure [MPa gauge],force [N]\n1,0.1,2\n-2,0.2,-3\n"
 
 
@@ -85,6 +85,8 @@ def test_an_optional_column_is_read_where_it_stands() -> None:
         (GOOD + "1,0.1\n", "m.csv, line 4: a row must have the header's 3 columns; got 2."),
         (GOOD + "1,0.1,2,3\n", "m.csv, line 4: a row must have the header's 3 columns; got 4."),
         (GOOD + "1,-0.1,2\n", "m.csv, line 4: pressure must be 0 MPa gauge or above; got -0.1 MPa gauge."),
+        (GOOD + "1,0.1,1000001\n", "m.csv, line 4: force must be 1e+06 N or below; got 1e+06 N."),
+        (GOOD + "1,0.1,-2e6\n", "m.csv, line 4: force must be -1e+06 N or above; got -2e+06 N."),
         (GOOD + '1,"0.1,2\n', "m.csv, line 4: a row must be cells as CSV writes them; got unexpected end of data."),
         (
             "velocity,pressure\n1,2\n",
