@@ -23,12 +23,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fluxbore.fem.element import QUADRATURE_POINTS, shape
-from fluxbore.fem.magnetostatics import Solution, coercive_field
+from fluxbore.fem.cells import POINTS, Cells
+from fluxbore.fem.magnetostatics import Solution
 from fluxbore.fem.mapped import MappedMesh
-from fluxbore.fem.mesh import Floats
-
-_SHAPE = shape(QUADRATURE_POINTS)
+from fluxbore.fem.mesh import Floats, Ints
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -51,50 +49,38 @@ class Linearisation:
     """
 
     def __init__(self, solution: Solution, grid: MappedMesh) -> None:
-        problem, kernel = solution.problem, solution.system.kernel
-        mesh = problem.mesh
-        self._solution, self._grid, self._elements = solution, grid, mesh.elements
-        self._weight = kernel.weight
-        m, q = kernel.weight.shape
-        self._rows = kernel.curl.reshape(m, 2 * q, 6)
-        s = np.einsum("qn,mn->mq", _SHAPE, mesh.nodes[mesh.elements, 0], optimize=True)
-        self._metric = 1 / (2 * s)
-        start, self._width = grid.r_nodes[:-2:2], np.diff(grid.r_nodes[::2])
-        column = np.arange(m) // 2 % self._width.size
-        self._share = (s - start[column][:, None]) / self._width[column][:, None]
-        self._b = self._fields(solution.psi[:, None])[..., 0]
+        self._solution = solution
+        self.cells = Cells(grid)
+        self._b = self.cells.fields(solution.psi)
         self._materials()
 
     def _materials(self) -> None:
-        """ν (m, q), and of the iron's elements dν/d|B|² and d²ν/d(|B|²)² (i, q); the magnets' elements by region."""
-        system, mesh = self._solution.system, self._solution.problem.mesh
-        squared = np.einsum("mqk,mqk->mq", self._b, self._b)
-        self._iron = system.iron_elements
-        self._nu = np.empty(squared.shape)
-        shape = (self._iron.size, squared.shape[1])
-        self._slope, self._curvature = np.empty(shape), np.empty(shape)
-        parts = dict(system.iron)
-        self._magnets = []
-        for index, material in enumerate(self._solution.problem.materials):
+        """ν times weight (m, points), and of the iron's cells dν/d|B|² and d²ν/d(|B|²)² (i, points); the magnets'
+        cells by region."""
+        cells, materials = self.cells, self._solution.problem.materials
+        reluctivity = np.array([material.components[0] for material in materials])
+        self._weighted = cells.weight * reluctivity[cells.region][:, None]
+        parts, slopes, curvatures = [np.zeros(0, dtype=int)], [np.zeros((0, POINTS))], [np.zeros((0, POINTS))]
+        self._magnets: list[tuple[int, Ints, float]] = []
+        for index, material in enumerate(materials):
             assert material.stack is None
             assert material.grade is None
-            chosen = np.flatnonzero(mesh.region == index)
+            assert not callable(material.coercivity)
             if material.curve is not None:
-                at = squared[chosen]
-                self._nu[chosen], self._slope[parts[index]] = material.curve.reluctivity(at)
-                self._curvature[parts[index]] = material.curve.curvature(at)
+                chosen = np.flatnonzero(cells.region == index)
+                squared = self._b[0][chosen] ** 2 + self._b[1][chosen] ** 2
+                nu, slope = material.curve.reluctivity(squared)
+                self._weighted[chosen] = nu * cells.weight[chosen]
+                parts.append(chosen)
+                slopes.append(slope)
+                curvatures.append(material.curve.curvature(squared))
                 continue
             assert material.components[0] == material.components[1]
-            self._nu[chosen] = material.components[0]
-            if material.coercivity != (0.0, 0.0):
-                h_c = coercive_field(mesh, material, chosen)
-                assert not h_c[..., 1].any()
-                self._magnets.append((index, chosen, h_c[..., 0]))
-
-    def _fields(self, values: Floats) -> Floats:
-        """(m, q, 2, k) what is B of ψ, of k nodal fields (n, k), in the kernel's frame."""
-        found = self._rows @ values[self._elements]
-        return found.reshape(found.shape[0], -1, 2, values.shape[1])
+            assert material.coercivity[0] == 0
+            if material.coercivity[1]:
+                self._magnets.append((index, np.flatnonzero(cells.region == index), material.coercivity[1]))
+        self._iron = np.concatenate(parts)
+        self._slope, self._curvature = np.concatenate(slopes), np.concatenate(curvatures)
 
     def residual(self, adjoints: Floats) -> Derivative:
         """Of μᵀR for k adjoint fields μ (n, k), circuits and edges left out.
@@ -102,72 +88,80 @@ class Linearisation:
         The density is (ν B − H_c)·B(μ), whose derivative by B(ψ) is the tangent's ν B(μ) + 2 ν' (B·B(μ)) B. It is
         linear in μ, so that all that costs anything is done once for any number of adjoints.
         """
-        b, iron = self._b, self._iron
-        flux = self._nu[..., None] * b
-        stretch_s, stretch_z, lever = flux * (-1.0, 1.0), flux * (1.0, -1.0), flux * (0.0, -2.0)
-        bent = 2 * self._slope[..., None] * b[iron]
-        stretch_s[iron] -= bent * b[iron][..., :1] ** 2
-        stretch_z[iron] -= bent * b[iron][..., 1:] ** 2
-        lever[iron] -= bent * b[iron][..., 1:] ** 2
+        cells = self.cells
+        across, along = (self._weighted * b for b in self._b)
+        lever = -2 * cells.metric * along
+        pull_across, pull_along = cells.pull_across(across), cells.pull_along(along)
+        by_s = cells.start_and_end(
+            pull_along - pull_across, cells.pull_along(lever), cells.pull_along(lever * cells.share)
+        )
+        by_z = pull_across - pull_along
         for _, chosen, h_c in self._magnets:
-            stretch_z[chosen, :, 0] -= h_c
-        lever *= self._metric[..., None]
-        factors = np.stack((stretch_s, stretch_z, lever, self._share[..., None] * lever), axis=1)
-        factors *= self._weight[:, None, :, None]
-        m = b.shape[0]
-        of_cells = (factors.reshape(m, 4, -1) @ self._rows) @ adjoints[self._elements]
-        regions = len(self._solution.problem.materials)
-        reluctivity, coercivity = np.zeros((2, regions, adjoints.shape[1]))
-        for index, chosen, _ in self._magnets:
-            weight = self._weight[chosen]
-            sums = np.stack((weight[..., None] * b[chosen], weight[..., None] * np.array([-1.0, 0.0])), axis=1)
-            pulls = sums.reshape(chosen.size, 2, -1) @ self._rows[chosen]
-            reluctivity[index], coercivity[index] = np.einsum(
-                "ean,enk->ak", pulls, adjoints[self._elements[chosen]], optimize=True
+            by_z[chosen] -= cells.pull_across(h_c * cells.weight[chosen], chosen)
+        self._add_bent(by_s, by_z)
+        s, z = cells.on_lines_of(by_s, by_z, adjoints)
+        return Derivative(s, z, *self._by_magnets(adjoints))
+
+    def _add_bent(self, by_s: Floats, by_z: Floats) -> None:
+        """The iron's 2 ν' (B·B(μ)) B: of B·B a stretch in s takes B_z² away, one in z B_r², which has 1/r² too."""
+        cells, iron = self.cells, self._iron
+        b = [field[iron] for field in self._b]
+        bent = -2 * self._slope * cells.weight[iron]
+        for own, pull in zip(b, (cells.pull_across, cells.pull_along), strict=True):
+            stretch_s, stretch_z = bent * own * b[0] ** 2, bent * own * b[1] ** 2
+            lever = cells.metric[iron] * stretch_z
+            by_s[:, iron] += cells.start_and_end(
+                pull(stretch_s, iron), pull(lever, iron), pull(lever * cells.share, iron), iron
             )
-        return Derivative(*self._by_lines(of_cells), reluctivity, coercivity)
+            by_z[iron] += pull(stretch_z, iron)
+
+    def _by_magnets(self, adjoints: Floats) -> tuple[Floats, Floats]:
+        """(regions, k) twice: of μᵀR by the magnets' reluctivity and coercivity."""
+        cells = self.cells
+        found = np.zeros((2, len(self._solution.problem.materials), adjoints.shape[1]))
+        for index, chosen, _ in self._magnets:
+            weight = cells.weight[chosen]
+            across, along = (weight * b[chosen] for b in self._b)
+            values = adjoints[cells.nodes[chosen]].reshape(chosen.size * 9, -1)
+            of_field = cells.pull_across(across, chosen) + cells.pull_along(along, chosen)
+            found[:, index] = of_field.ravel() @ values, -cells.pull_across(weight, chosen).ravel() @ values
+        return found[0], found[1]
 
     def tangent(self, x: Floats, y: Floats) -> tuple[Derivative, Floats]:
         """Of xᵀ K_T y for two nodal fields (n,): as ever, and (n,) by the nodal ψ.
 
         The density is ν u·v + 2 ν' (B·u)(B·v) with u, v the fields of x and y.
         """
-        fields = self._fields(np.column_stack((x, y)))
-        u, v, b, iron = fields[..., 0], fields[..., 1], self._b, self._iron
-        products = u * v
-        along, across = (self._nu * products[..., k] for k in (0, 1))
-        density = along + across
-        along, across = 2 * along, 2 * across
-        slope, bi, ui, vi = self._slope, b[iron], u[iron], v[iron]
-        bu, bv = np.einsum("mqk,mqk->mq", bi, ui), np.einsum("mqk,mqk->mq", bi, vi)
-        uv = products[iron].sum(axis=-1)
-        by_b = (2 * slope * uv + 4 * self._curvature * bu * bv)[..., None] * bi
-        by_b += 2 * slope[..., None] * (ui * bv[..., None] + vi * bu[..., None])
-        turned = by_b * bi + 2 * slope[..., None] * bi * (ui * bv[..., None] + vi * bu[..., None])
-        density[iron] += 2 * slope * bu * bv
-        along[iron] += turned[..., 0]
-        across[iron] += turned[..., 1]
-        lever = -self._metric * across
-        factors = np.stack((density - along, density - across, lever, self._share * lever), axis=1)
-        of_cells = np.einsum("mfq,mq->mf", factors, self._weight)[..., None]
-        pull = (by_b * self._weight[iron][..., None]).reshape(iron.size, 1, -1) @ self._rows[iron]
-        by_psi = np.bincount(self._elements[iron].ravel(), pull.ravel(), self._solution.psi.size).astype(float)
+        cells, iron, slope = self.cells, self._iron, self._slope
+        u = cells.fields(x)
+        v = u if x is y else cells.fields(y)
+        products = [a * b for a, b in zip(u, v, strict=True)]
+        across = np.einsum("mq,mq->m", self._weighted, products[0])
+        turned = self._weighted * products[1]
+        along = turned.sum(axis=1)
+        turned *= -2 * cells.metric
+        stretch_s, stretch_z = along - across, across - along
+        lever, share = turned.sum(axis=1), turned @ cells.share
+
+        bi, ui, vi = ([field[iron] for field in pair] for pair in (self._b, u, v))
+        weight = cells.weight[iron]
+        bu, bv = (bi[0] * w[0] + bi[1] * w[1] for w in (ui, vi))
+        even = 2 * slope * (products[0][iron] + products[1][iron]) + 4 * self._curvature * bu * bv
+        mixed = [2 * slope * (ui[k] * bv + vi[k] * bu) for k in range(2)]
+        by_b = [weight * (even * bi[k] + mixed[k]) for k in range(2)]
+        bent = 2 * slope * bu * bv * weight
+        lost = [(by_b[k] + weight * mixed[k]) * bi[k] for k in range(2)]
+        stretch_s[iron] += (bent - lost[0]).sum(axis=1)
+        stretch_z[iron] += (bent - lost[1]).sum(axis=1)
+        turned = -cells.metric[iron] * lost[1]
+        lever[iron] += turned.sum(axis=1)
+        share[iron] += turned @ cells.share
+
+        s, z = cells.on_lines(cells.start_and_end(stretch_s, lever, share), stretch_z)
+        pull = cells.pull_across(by_b[0], iron) + cells.pull_along(by_b[1], iron)
+        by_psi = np.bincount(cells.nodes[iron].ravel(), pull.ravel(), self._solution.psi.size).astype(float)
         regions = len(self._solution.problem.materials)
         reluctivity = np.zeros((regions, 1))
         for index, chosen, _ in self._magnets:
-            reluctivity[index] = np.sum(self._weight[chosen][..., None] * products[chosen])
-        return Derivative(*self._by_lines(of_cells), reluctivity, np.zeros((regions, 1))), by_psi
-
-    def _by_lines(self, of_cells: Floats) -> tuple[Floats, Floats]:
-        """(lines, k) twice, from each element's (m, 4, k): ∫ (f − ..)∂_s, ∫ (f − ..)∂_z, ∫ ∂f/∂s, ∫ share · ∂f/∂s."""
-        grid, k = self._grid, of_cells.shape[-1]
-        cells = of_cells.reshape(grid.z_lines.size - 1, grid.r_lines.size - 1, 2, 4, k).sum(axis=2)
-        columns = cells.sum(axis=0)
-        s, z = np.zeros((grid.r_lines.size, k)), np.zeros((grid.z_lines.size, k))
-        stretch = columns[:, 0] / self._width[:, None]
-        s[1:] += stretch + columns[:, 3]
-        s[:-1] -= stretch - columns[:, 2] + columns[:, 3]
-        rise = cells[:, :, 1].sum(axis=1) / np.diff(grid.z_lines)[:, None]
-        z[1:] += rise
-        z[:-1] -= rise
-        return s, z
+            reluctivity[index] = np.sum(cells.weight[chosen] * (products[0][chosen] + products[1][chosen]))
+        return Derivative(s[:, None], z[:, None], reluctivity, np.zeros((regions, 1))), by_psi

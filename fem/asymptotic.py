@@ -19,6 +19,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -69,12 +70,14 @@ def _shell(start: Values, end: Values, radius: Values, first: Values, second: Va
     return VACUUM_RELUCTIVITY * length * _W * across_shell(radius, z, (first, second)) / radius
 
 
-def _end(start: Values, end: Values, z: Values, first: Values, second: Values) -> Values:
-    """(k, 4) the same of edges from start to end (k, 1) in s, on a plane at z."""
+def _end(side: float, start: Values, end: Values, z: Values, first: Values, second: Values) -> Values:
+    """(k, 4) the same of edges from start to end (k, 1) in s, on a plane at z.
+
+    side : +1 or −1, above or below the machine.
+    """
     width = end - start
     s = start + width * _T
-    # The pole that is nearer, and distances that are positive, on either side of the machine.
-    side = 1.0 if np.real(z) > np.real(second) else -1.0
+    # The pole that is nearer, and distances that are positive.
     near, far = (second, first) if side > 0 else (first, second)
     # dl/r = dr/r = ds/(2 s) along an end.
     return VACUUM_RELUCTIVITY * width * _W * across_end(np.sqrt(2 * s), (side * (z - near), side * (z - far))) / (2 * s)
@@ -84,12 +87,11 @@ def _end(start: Values, end: Values, z: Values, first: Values, second: Values) -
 class _Rim:
     """Edges of one side in order: their factors' arguments, and where they are.
 
-    along : 0 for an end, whose edges run in s, 1 for the shell. nodes : (k, 3) start, end, middle. cells : (k,).
+    nodes : (k, 3) start, end, middle. cells : (k,).
     """
 
     factor: Callable[..., Values]
     arguments: tuple[Any, ...]
-    along: int
     nodes: Ints
     cells: Ints
 
@@ -101,17 +103,15 @@ def _rims(grid: MappedMesh, poles: tuple[float, float]) -> list[_Rim]:
         _Rim(
             _shell,
             (grid.z_nodes[rows][:, None], grid.z_nodes[rows + 2][:, None], float(grid.r_lines[-1]), *poles),
-            1,
             np.stack([grid.node(rows + k, last_column) for k in (0, 2, 1)], axis=-1),
             rows // 2 * columns.size + columns.size - 1,
         )
     ]
-    for row, end in ((0, float(grid.z_lines[0])), (last_row, float(grid.z_lines[-1]))):
+    for row, end, side in ((0, float(grid.z_lines[0]), -1.0), (last_row, float(grid.z_lines[-1]), 1.0)):
         rims.append(
             _Rim(
-                _end,
+                partial(_end, side),
                 (grid.r_nodes[columns][:, None], grid.r_nodes[columns + 2][:, None], end, *poles),
-                0,
                 np.stack([grid.node(row, columns + k) for k in (0, 2, 1)], axis=-1),
                 min(row // 2, rows.size - 1) * columns.size + columns // 2,
             )
@@ -145,35 +145,43 @@ class RimDerivative:
     poles: Floats
 
 
-def rim_derivative(grid: MappedMesh, poles: tuple[float, float], u: Floats, v: Floats) -> RimDerivative:
-    """Of ∫ ν0 c/r u v dl along the open rim, for pairs of nodal fields u, v (n, k).
+class OpenRim:
+    """The open rim of a grid, prepared for derivatives of ∫ ν0 c/r u v dl along it.
 
-    By complex steps (Squire and Trapp 1998), which are exact to rounding: c is made of nothing but roots and ratios.
+    The factors' slopes are by complex steps (Squire and Trapp 1998), which are exact to rounding: c is made of nothing
+    but roots and ratios.
     """
-    columns = u.shape[1]
-    found = RimDerivative(
-        np.zeros((grid.r_lines.size, columns)), np.zeros((grid.z_lines.size, columns)), np.zeros((2, columns))
-    )
-    for rim in _rims(grid, poles):
-        at_points = np.einsum("ti,kic->ktc", _SHAPE, u[rim.nodes]) * np.einsum("ti,kic->ktc", _SHAPE, v[rim.nodes])
 
-        def by(place: int, rim: _Rim = rim, at_points: Floats = at_points) -> Floats:
-            """(k, columns) by an argument of the factor, of each edge."""
-            moved = list(rim.arguments)
-            moved[place] = moved[place] + 1j * _STEP
-            slope = np.imag(rim.factor(*moved)) / _STEP
-            return np.asarray(np.einsum("kt,ktc->kc", np.broadcast_to(slope, at_points.shape[:2]), at_points))
+    def __init__(self, grid: MappedMesh, poles: tuple[float, float]) -> None:
+        self._grid = grid
+        rims = _rims(grid, poles)
+        self._nodes = np.concatenate([rim.nodes for rim in rims])
+        self._slopes = np.concatenate([_slopes(rim) for rim in rims], axis=1)
+        self._parts = np.cumsum([rim.nodes.shape[0] for rim in rims])[:-1]
 
-        lines, across = (found.z, found.s) if rim.along else (found.s, found.z)
-        lines[:-1] += by(0)
-        lines[1:] += by(1)
-        if rim.along:
-            radius = float(grid.r_lines[-1])
-            across[-1] += by(2).sum(axis=0) / radius  # ds = r dr
-        else:
-            across[0 if rim.arguments[2] == grid.z_lines[0] else -1] += by(2).sum(axis=0)
-        found.poles[:] += np.stack((by(3).sum(axis=0), by(4).sum(axis=0)))
-    return found
+    def derivative(self, u: Floats, v: Floats) -> RimDerivative:
+        """For pairs of nodal fields u, v (n, k), or one u (n, 1) for all."""
+        at_points = (_SHAPE @ u[self._nodes]) * (_SHAPE @ v[self._nodes])
+        by_arguments = np.einsum("akt,ktc->akc", self._slopes, at_points)
+        shell, low, high = np.split(by_arguments, self._parts, axis=1)
+        grid, columns = self._grid, by_arguments.shape[2]
+        s, z = np.zeros((grid.r_lines.size, columns)), np.zeros((grid.z_lines.size, columns))
+        z[:-1] += shell[0]
+        z[1:] += shell[1]
+        s[-1] += shell[2].sum(axis=0) / float(grid.r_lines[-1])  # ds = r dr
+        for end, line in ((low, 0), (high, -1)):
+            s[:-1] += end[0]
+            s[1:] += end[1]
+            z[line] += end[2].sum(axis=0)
+        return RimDerivative(s, z, by_arguments[3:].sum(axis=1))
+
+
+def _slopes(rim: _Rim) -> Floats:
+    """(5, k, 4) of the factors at the edges' Gauss points by each of their arguments."""
+    count = len(rim.arguments)
+    steps = 1j * _STEP * np.eye(count)[:, :, None, None]
+    moved = rim.factor(*(argument + step for argument, step in zip(rim.arguments, steps, strict=True)))
+    return np.asarray(np.imag(moved) / _STEP)
 
 
 def _owners(elements: Ints, cells: Ints, edges: Ints) -> tuple[Ints, Ints]:

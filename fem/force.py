@@ -7,7 +7,6 @@ import numpy as np
 from fluxbore.fem.element import QUADRATURE_POINTS, shape
 from fluxbore.fem.magnetostatics import Solution
 from fluxbore.fem.mesh import Floats
-from fluxbore.fem.moved_points import node_derivative
 from fluxbore.fem.reluctivity import VACUUM_RELUCTIVITY
 
 
@@ -40,17 +39,6 @@ class ForceShell:
         turned = self._fields(field)[..., ::-1] * (self._scale * self._weight)[..., None]
         share = (turned.reshape(self._shell.size, 1, -1) @ self._rows)[:, 0]
         return np.asarray(np.bincount(self._nodes.ravel(), share.ravel(), self._mesh.nodes.shape[0]))
-
-    def derivative(self, x: Floats, y: Floats) -> tuple[Floats, tuple[float, float]]:
-        """Derivative of xᵀ G y by the nodes (n, 2), and by s = r²/2 at the annulus's inner and outer radius."""
-        here, there = self._fields(x), self._fields(y)
-        density = self._scale * (here[..., 0] * there[..., 1] + here[..., 1] * there[..., 0])
-        pairs = tuple((self._scale[..., None] * one[..., ::-1], other) for one, other in ((here, there), (there, here)))
-        nodes = node_derivative(
-            self._mesh, self._shell, self._rows, self._weight, shape(QUADRATURE_POINTS), pairs, density, by_rows=False
-        )
-        by_width = float(np.sum(self._weight * density)) / self._width
-        return nodes, (by_width, -by_width)
 
     def _fields(self, field: Floats) -> Floats:
         """(m, q, 2) what is B of ψ, of a nodal field, in the kernel's frame."""

@@ -312,14 +312,22 @@ class Corrected:
 
     def _refined(self, right: Floats, tolerance: float) -> Floats | None:
         """Iterative refinement of many right sides (n, k) at once; None where the neighbour is too far for it."""
-        size = np.linalg.norm(right, axis=0)
-        x, rest = np.zeros(right.shape), right
+        goal = tolerance * _lengths(right)
+        x = np.zeros(right.shape)
+        left, rest = np.arange(right.shape[1]), right
         for _ in range(MOST_REFINEMENTS):
-            x += self.nearest.solve(rest)
-            rest = right - self._matrix @ x
-            if np.all(np.linalg.norm(rest, axis=0) <= tolerance * size):
+            x[:, left] += self.nearest.solve(rest)
+            rest = right[:, left] - self._matrix @ x[:, left]
+            far = _lengths(rest) > goal[left]
+            left, rest = left[far], rest[:, far]
+            if not left.size:
                 return x
         return None
+
+
+def _lengths(columns: Floats) -> Floats:
+    """(k,) Euclidean, of columns (n, k)."""
+    return np.asarray(np.sqrt(np.einsum("nk,nk->k", columns, columns)))
 
 
 class Tangents:

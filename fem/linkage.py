@@ -21,18 +21,56 @@ _GAUSS_POINTS, _GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(4)
 _UNIT_POINTS, _UNIT_WEIGHTS = (_GAUSS_POINTS + 1) / 2, _GAUSS_WEIGHTS / 2
 
 
-def circuits(mesh: Mesh, coils: Sequence[CoilWindow]) -> tuple[Circuit, ...]:
-    """One circuit for each name among the coils, in order of appearance."""
+@dataclass(frozen=True, slots=True, eq=False)
+class Clip:
+    """Gauss points in what windows cut out of triangles.
+
+    element, window : (p,). triangle : (p, 3, 2) corners in the chart. r, z : (p, 32) m. weight : (p, 32) m².
+    barycentric : (p, 32, 3).
+    """
+
+    element: Ints
+    window: Ints
+    triangle: Floats
+    r: Floats
+    z: Floats
+    weight: Floats
+    barycentric: Floats
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Cut:
+    """What coils of equal radii cut out of a mesh.
+
+    coil : (p,) whose window it is. integral : (p, 6) ∫ φ_i dr dz (m²) of the elements' shape functions.
+    """
+
+    coil: Ints
+    clip: Clip
+    integral: Floats
+
+
+def cuts(mesh: Mesh, coils: Sequence[CoilWindow]) -> tuple[Cut, ...]:
+    """One for each pair of radii among the coils."""
+    found = []
+    for radii in dict.fromkeys(coil.r for coil in coils):
+        alike = np.array([k for k, coil in enumerate(coils) if coil.r == radii])
+        clip = clipped(mesh, radii, np.array([coils[k].z for k in alike]))
+        integral = (clip.weight[:, None, :] @ shape(clip.barycentric))[:, 0]
+        found.append(Cut(alike[clip.window], clip, integral))
+    return tuple(found)
+
+
+def circuits(mesh: Mesh, coils: Sequence[CoilWindow], made: Sequence[Cut] | None = None) -> tuple[Circuit, ...]:
+    """One circuit for each name among the coils, in order of appearance. made : the coils' `cuts`, where known."""
     names = list(dict.fromkeys(coil.circuit for coil in coils))
+    circuit = np.array([names.index(coil.circuit) for coil in coils])
+    per_area = np.array([coil.turns / coil.area for coil in coils])
     nodes = mesh.nodes.shape[0]
     density = np.zeros(len(names) * nodes)
-    for radii in {coil.r for coil in coils}:
-        alike = [coil for coil in coils if coil.r == radii]
-        element, which, integral = _integrals(mesh, radii, np.array([coil.z for coil in alike]))
-        per_area = np.array([coil.turns / coil.area for coil in alike])
-        circuit = np.array([names.index(coil.circuit) for coil in alike])
-        place = circuit[which][:, None] * nodes + mesh.elements[element]
-        share = integral * per_area[which][:, None]
+    for cut in cuts(mesh, coils) if made is None else made:
+        place = circuit[cut.coil][:, None] * nodes + mesh.elements[cut.clip.element]
+        share = cut.integral * per_area[cut.coil][:, None]
         density += np.bincount(place.ravel(), share.ravel(), density.size)
     return tuple(Circuit(name, values) for name, values in zip(names, density.reshape(-1, nodes), strict=True))
 
@@ -56,24 +94,7 @@ def coil_density(mesh: Mesh, coil: CoilWindow) -> Floats:
     return circuits(mesh, (coil,))[0].density
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Clip:
-    """Gauss points in what windows cut out of triangles.
-
-    element, window : (p,). triangle : (p, 3, 2) corners in the chart. r, z : (p, 4, 4) m. weight : (p, 4, 4) m².
-    barycentric : (p, 4, 4, 3).
-    """
-
-    element: Ints
-    window: Ints
-    triangle: Floats
-    r: Floats
-    z: Floats
-    weight: Floats
-    barycentric: Floats
-
-
-def clips(mesh: Mesh, radii: tuple[float, float], windows: Floats) -> list[Clip]:
+def clipped(mesh: Mesh, radii: tuple[float, float], windows: Floats) -> Clip:
     """The part of each triangle that lies in each window of one shell.
 
     radii : of the shell, mesh lines (m). windows : (k, 2) z from and to, anywhere (m). Straight-sided elements only.
@@ -90,8 +111,9 @@ def clips(mesh: Mesh, radii: tuple[float, float], windows: Floats) -> list[Clip]
     triangle = mesh.nodes[mesh.elements[element, :3]]
     order = np.argsort(triangle[..., 1], axis=1, kind="stable")
     low, middle, high = (np.take_along_axis(triangle, order[:, [k], None], axis=1)[:, 0] for k in range(3))
-    found = []
-    for start, end in ((low, middle), (middle, high)):
+    count = element.size
+    r, all_z, weight = np.empty((3, count, 2, 4, 4))
+    for k, (start, end) in enumerate(((low, middle), (middle, high))):
         bottom = np.maximum(start[:, 1], lower)
         top = np.minimum(end[:, 1], upper)
         height = np.maximum(top - bottom, 0.0)
@@ -100,24 +122,11 @@ def clips(mesh: Mesh, radii: tuple[float, float], windows: Floats) -> list[Clip]
         # then share out the window's turns to rounding.
         left = np.sqrt(2 * np.maximum(_on_edge(low, high, z), 0.0))
         right = np.sqrt(2 * np.maximum(_on_edge(start, end, z), 0.0))
-        r = left[..., None] + (right - left)[..., None] * _UNIT_POINTS
-        weight = (height[:, None] * np.abs(right - left) * _UNIT_WEIGHTS)[..., None] * _UNIT_WEIGHTS
-        s = r**2 / 2
-        all_z = np.broadcast_to(z[..., None], s.shape)
-        found.append(Clip(element, which, triangle, r, all_z, weight, _barycentric(triangle, s, all_z)))
-    return found
-
-
-def _integrals(mesh: Mesh, radii: tuple[float, float], windows: Floats) -> tuple[Ints, Ints, Floats]:
-    """∫ φ_i dr dz (m²) of the six shape functions (p, 6) over the part of each triangle in each window; see `clips`.
-
-    Returns the element and the window of each pair that overlaps (p,), and the integrals.
-    """
-    first, second = clips(mesh, radii, windows)
-    total = sum(
-        np.einsum("pab,pabn->pn", clip.weight, shape(clip.barycentric), optimize=True) for clip in (first, second)
-    )
-    return first.element, first.window, np.asarray(total)
+        r[:, k] = left[..., None] + (right - left)[..., None] * _UNIT_POINTS
+        weight[:, k] = (height[:, None] * np.abs(right - left) * _UNIT_WEIGHTS)[..., None] * _UNIT_WEIGHTS
+        all_z[:, k] = z[..., None]
+    r, all_z, weight = (values.reshape(count, 32) for values in (r, all_z, weight))
+    return Clip(element, which, triangle, r, all_z, weight, _barycentric(triangle, r**2 / 2, all_z))
 
 
 def _within(mesh: Mesh, radii: tuple[float, float]) -> Ints:

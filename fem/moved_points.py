@@ -20,14 +20,12 @@ def node_derivative(
     values: Floats,
     pairs: tuple[tuple[Floats, Floats], ...],
     density: Floats | None = None,
-    by_rows: bool = True,
 ) -> Floats:
     """(n, 2) derivative by the nodes, in the chart, of Σ weight · f over points of elements; see `fem.adjoint`.
 
     rows : (m, 2 q, 6) the kernel's at these points. values : (q, 6) shape functions there. weight : (m, q).
     pairs : for each field the derivative of f by its rows and those rows, each (m, q, 2).
     density : f (m, q) where the sum is an integral, so that points carry their area with them; None where it is not.
-    by_rows : whether f is made of the kernel's rows, which carry 1/r, or of the derivatives in the chart alone.
     """
     metric = inverse_squared_radius(mesh, elements, values)
     radius = 1 / np.sqrt(metric)
@@ -44,8 +42,7 @@ def node_derivative(
         factors[:, :, 1, 1] += density * radius
     factors *= weight[..., None, None]
     nodal = rows.transpose(0, 2, 1) @ factors.reshape(m, 2 * q, 2)
-    if by_rows:
-        nodal[..., 0] += (weight * explicit) @ values
+    nodal[..., 0] += (weight * explicit) @ values
     places = mesh.elements[elements].ravel()
     count = mesh.nodes.shape[0]
     return np.stack([np.bincount(places, nodal[..., i].ravel(), count) for i in range(2)], axis=-1)

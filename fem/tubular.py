@@ -12,7 +12,7 @@ from fluxbore.design.materials import PermanentMagnet
 from fluxbore.fem.asymptotic import open_edges
 from fluxbore.fem.field import along_radius
 from fluxbore.fem.force import axial_force, incremental_thrust, thrust_response
-from fluxbore.fem.linkage import circuits, flux_linkages, synchronous_inductance
+from fluxbore.fem.linkage import Cut, circuits, cuts, flux_linkages, synchronous_inductance
 from fluxbore.fem.magnetostatics import Settings, Solution, solve
 from fluxbore.fem.mapped import MappedMesh, Subdivision, mapped_mesh
 from fluxbore.fem.mesh import Floats, Ints
@@ -48,12 +48,16 @@ Z_CELLS = {
 
 @dataclass(frozen=True, eq=False)
 class TubularSolution:
-    """A machine's field at one position, with the grid it lives on."""
+    """A machine's field at one position, with the grid it lives on.
+
+    windows : what the coils cut out of the grid, kept for derivatives.
+    """
 
     position: float
     section: CrossSection
     grid: MappedMesh
     solution: Solution
+    windows: tuple[Cut, ...] | None = None
 
     @property
     def convergence(self) -> Convergence:
@@ -138,11 +142,13 @@ def _solved(
 ) -> TubularSolution:
     """The problem of a meshed cross-section in open air, solved."""
     materials = tuple(magnetic_material(region) for region in section.regions)
+    windows = cuts(grid.mesh, section.coils)
     coils = tuple(
-        replace(circuit, current=currents.get(circuit.name, 0.0)) for circuit in circuits(grid.mesh, section.coils)
+        replace(circuit, current=currents.get(circuit.name, 0.0))
+        for circuit in circuits(grid.mesh, section.coils, windows)
     )
     problem = Problem(grid.mesh, materials, coils, edges=open_edges(grid, section.ends))
-    return TubularSolution(position, section, grid, solve(problem, settings, start))
+    return TubularSolution(position, section, grid, solve(problem, settings, start), windows)
 
 
 def _predicted(before: Sequence[TubularSolution], position: float, grid: MappedMesh) -> Floats | None:

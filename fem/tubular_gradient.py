@@ -12,9 +12,9 @@ from functools import cached_property
 import numpy as np
 
 from fluxbore.fem.adjoint import Linearisation
-from fluxbore.fem.asymptotic import rim_derivative
+from fluxbore.fem.asymptotic import OpenRim
 from fluxbore.fem.force import ForceShell
-from fluxbore.fem.functionals import Functional, on_lines
+from fluxbore.fem.functionals import Functional
 from fluxbore.fem.linear import Corrected
 from fluxbore.fem.mapped import breakpoint_derivative
 from fluxbore.fem.mesh import Floats
@@ -22,10 +22,12 @@ from fluxbore.fem.reluctivity import VACUUM_RELUCTIVITY
 from fluxbore.fem.tubular import TubularSolution, space_vector
 from fluxbore.fem.window_derivative import Windows
 
-ACCURACY = 1e-10
+ACCURACY = 1e-11
 """Of adjoint fields, and so of gradients: relative residual."""
 
-_CLARKE = np.exp(2j * np.pi / 3 * np.arange(3))
+_ANGLES = 2 * np.pi / 3 * np.arange(3)
+_CLARKE = np.column_stack((np.cos(_ANGLES), np.sin(_ANGLES)))
+"""(3, 2) phase values of the two axes, α and β."""
 
 
 class TubularAdjoint:
@@ -44,7 +46,16 @@ class TubularAdjoint:
 
     @cached_property
     def _windows(self) -> Windows:
-        return Windows(self.tubular.grid, self.tubular.section.coils)
+        return Windows(self.tubular.grid, self.tubular.section.coils, self.tubular.windows)
+
+    @cached_property
+    def _rim(self) -> OpenRim:
+        return OpenRim(self.tubular.grid, self.tubular.section.ends)
+
+    @cached_property
+    def _axes(self) -> Floats:
+        """(n, 2) K_T⁻¹ times the load of one ampere in either of Clarke's axes."""
+        return self._solved(self._densities @ _CLARKE)
 
     def force_constant(self) -> Functional:
         """3/2 |K_αβ| (N/A) of the incremental thrust constants.
@@ -52,15 +63,14 @@ class TubularAdjoint:
         With x the phases' responses weighted by ∂/∂K_ph it is, to first order, xᵀ G ψ: of the force's gradient, of the
         currents' load and, against both, of the tangent.
         """
-        tubular, solution = self.tubular, self.tubular.solution
+        tubular = self.tubular
         vector = space_vector(tubular.thrust_constants())
-        weights = np.real(np.conj(vector) / (abs(vector) or 1.0) * _CLARKE)
-        response = tubular.response
-        x = self._solved((self._densities @ weights)[:, None])[:, 0]
+        axes = _by_axis(np.conj(vector) / (abs(vector) or 1.0))
+        response, x = tubular.response, self._axes @ axes
         derivative, by_psi = self.linearisation.tangent(x, response)
-        s, z = self._stress(x, solution.psi)
-        load = self._windows.derivative(self._by_phase(weights, response))
-        rim = rim_derivative(tubular.grid, tubular.section.ends, x[:, None], response[:, None])
+        s, z = self._stress(float(x @ self._pull))
+        load = self._windows.derivative(self._by_phase(_CLARKE @ axes, response))
+        rim = self._rim.derivative(x[:, None], response[:, None])
         return Functional(
             1.5 * abs(vector),
             self._shell.gradient(x) - by_psi,
@@ -75,24 +85,28 @@ class TubularAdjoint:
     def force(self) -> Functional:
         """The axial force on the mover (N)."""
         tubular = self.tubular
-        s, z = self._stress(tubular.solution.psi / 2, tubular.solution.psi)
-        return Functional(float(self._pull @ tubular.solution.psi / 2), self._pull, s, z, adjoint=tubular.response)
+        value = float(self._pull @ tubular.solution.psi / 2)
+        return Functional(value, self._pull, *self._stress(value), adjoint=tubular.response)
 
-    def _stress(self, x: Floats, y: Floats) -> tuple[Floats, Floats]:
-        """(lines,) twice, derivatives of xᵀ G y by the grid's lines."""
-        grid = self.tubular.grid
-        nodes, at_radii = self._shell.derivative(x, y)
-        s, z = on_lines(grid, nodes)
-        for radius, by_s in zip(self.tubular.section.force_annulus, at_radii, strict=True):
-            s[grid.line(radius)] += by_s
-        return s, z
+    def _stress(self, value: float) -> tuple[Floats, Floats]:
+        """(lines,) twice, derivatives of xᵀ G y by the grid's lines, from its value.
 
-    def linkage(self, weights: Sequence[float]) -> Functional:
-        """A sum over the phases of weight · flux linkage (Wb)."""
+        Its density has one derivative along s, one along z and over ds dz no metric: lines that move leave it as it is
+        (`ForceShell`). Only the shell's own width is left.
+        """
+        grid, (inner, outer) = self.tubular.grid, self.tubular.section.force_annulus
+        s = np.zeros(grid.r_lines.size)
+        by_width = 2 * value / (outer**2 - inner**2)
+        s[grid.line(inner)] += by_width
+        s[grid.line(outer)] -= by_width
+        return s, np.zeros(grid.z_lines.size)
+
+    def linkage(self, factor: complex) -> Functional:
+        """Re(factor · Λ) of the space vector Λ (Wb) of the phases' flux linkages."""
         solution = self.tubular.solution
-        scaled = 2 * np.pi * np.array(weights)
-        load = self._windows.derivative(self._by_phase(scaled, solution.psi))
-        by_psi = self._densities @ scaled
+        axes = 2 * np.pi * 2 / 3 * _by_axis(factor)
+        load = self._windows.derivative(self._by_phase(_CLARKE @ axes, solution.psi))
+        by_psi = self._densities @ (_CLARKE @ axes)
         return Functional(
             float(by_psi @ solution.psi),
             by_psi,
@@ -100,6 +114,7 @@ class TubularAdjoint:
             load.z[:, 0],
             windows=load.windows[..., 0],
             turns=load.turns[:, 0],
+            adjoint=self._axes @ axes,
         )
 
     def inductance(self) -> Functional:
@@ -124,11 +139,10 @@ class TubularAdjoint:
         assert total.reluctivity is not None
         assert total.poles is not None
         scale = np.pi * 2 / 3
-        clarke = np.column_stack((np.real(_CLARKE), np.imag(_CLARKE)))
-        for currents, x in zip(clarke.T, self._solved(self._densities @ clarke).T, strict=True):
+        for currents, x in zip(_CLARKE.T, np.ascontiguousarray(self._axes.T), strict=True):
             derivative, by_psi = self.linearisation.tangent(x, x)
             load = self._windows.derivative(self._by_phase(2 * currents, x))
-            rim = rim_derivative(grid, self.tubular.section.ends, x[:, None], x[:, None])
+            rim = self._rim.derivative(x[:, None], x[:, None])
             total.value += scale * float((self._densities @ currents) @ x)
             total.by_psi -= scale * by_psi
             total.s += scale * (load.s - derivative.s - rim.s)[:, 0]
@@ -146,8 +160,7 @@ class TubularAdjoint:
         section, problem = tubular.section, tubular.solution.problem
         adjoints = self._adjoints(functionals)
         residual = self.linearisation.residual(adjoints)
-        psi = np.broadcast_to(tubular.solution.psi[:, None], adjoints.shape)
-        rim = rim_derivative(grid, section.ends, psi, adjoints)
+        rim = self._rim.derivative(tubular.solution.psi[:, None], adjoints)
         s, z, poles = -residual.s - rim.s, -residual.z - rim.z, -rim.poles
         windows = np.zeros((len(section.coils), 4, len(functionals)))
         turns = np.zeros((len(section.coils), len(functionals)))
@@ -210,3 +223,8 @@ class TubularAdjoint:
         """A nodal field times each phase's weight, by the circuit's name."""
         circuits = self.tubular.solution.problem.circuits
         return {circuit.name: weight * field for circuit, weight in zip(circuits, weights, strict=True)}
+
+
+def _by_axis(factor: complex) -> Floats:
+    """(2,) α and β with Re(factor · (cos φ + j sin φ)) = α cos φ + β sin φ."""
+    return np.array([np.real(factor), -np.imag(factor)])

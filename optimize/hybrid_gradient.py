@@ -153,8 +153,8 @@ def _shares(
     made.add(
         "force_constant_linkage",
         [
-            item.linkage(weights)
-            for item, weights in zip(window, _linkage_weights(positions, actuator.mover.pole_pitch), strict=True)
+            item.linkage(factor)
+            for item, factor in zip(window, _linkage_factors(positions, actuator.mover.pole_pitch), strict=True)
         ],
         [1.0] * count,
     )
@@ -173,16 +173,11 @@ def _shares(
     return made
 
 
-def _linkage_weights(positions: Sequence[PositionResult], pole_pitch: float) -> list[tuple[float, float, float]]:
-    """d(3/2 (π/τ) |Λ|)/d linkage of each phase at each position (1/m)."""
+def _linkage_factors(positions: Sequence[PositionResult], pole_pitch: float) -> list[complex]:
+    """By which each position's linkage vector must change to change 3/2 (π/τ) |Λ| by its real part (1/m)."""
     vector = linkage_vector([p.flux_linkages for p in positions], [p.position for p in positions], pole_pitch)
     along = 1.5 * pi / pole_pitch * np.conj(vector) / (abs(vector) or 1.0) / len(positions)
-    found = []
-    for position in positions:
-        turned = along * np.exp(-1j * pi * position.position / pole_pitch)
-        u, v, w = (float(np.real(turned * 2 / 3 * np.exp(2j * np.pi / 3 * k))) for k in range(3))
-        found.append((u, v, w))
-    return found
+    return [complex(along * np.exp(-1j * pi * position.position / pole_pitch)) for position in positions]
 
 
 def _turning(spec: Spec, positions: Sequence[PositionResult], jacobians: Jacobians) -> Floats:

@@ -11,7 +11,7 @@ from small_motor import COARSE_R, COARSE_Z, cubic_iron, difference, small_sectio
 
 from fluxbore.design.materials import standard
 from fluxbore.fem.adjoint import Linearisation
-from fluxbore.fem.asymptotic import open_edges, rim_derivative
+from fluxbore.fem.asymptotic import OpenRim, open_edges
 from fluxbore.fem.linear import Pattern
 from fluxbore.fem.magnetostatics import Solution, System
 from fluxbore.fem.mapped import MappedMesh, breakpoint_derivative, mapped_mesh
@@ -145,7 +145,7 @@ def test_the_open_rim(case: Case) -> None:
     """Catches an edge term that stays while its line, a corner or a pole moves: uᵀ C v with each of them moved."""
     poles = (-0.02, 0.05)
     u, v = (field / np.abs(field).max() for field in case.tests[:2])
-    found = rim_derivative(case.grid, poles, u[:, None], v[:, None])
+    found = OpenRim(case.grid, poles).derivative(u[:, None], v[:, None])
     s, z = case.grid.r_lines**2 / 2, case.grid.z_lines
 
     def at(s: Array, z: Array, poles: tuple[float, float]) -> float:

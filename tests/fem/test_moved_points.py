@@ -7,7 +7,7 @@ from small_motor import difference, small_section, solved
 from fluxbore.fem.element import QUADRATURE_POINTS, kernel, shape
 from fluxbore.fem.field import CORNERS_AND_MIDDLES
 from fluxbore.fem.mesh import Mesh
-from fluxbore.fem.moved_points import inverse_squared_radius, node_derivative
+from fluxbore.fem.moved_points import node_derivative
 
 Array = np.ndarray
 
@@ -78,29 +78,4 @@ def test_a_sum_of_samples(case: Case) -> None:
     rows, _, psi, _ = case.fields(case.mesh, CORNERS_AND_MIDDLES)
     ones = np.ones(psi.shape[:2])
     found = node_derivative(case.mesh, case.elements, rows, ones, shape(CORNERS_AND_MIDDLES), ((2 * psi, psi),))
-    case.check(found, value)
-
-
-def test_of_the_charts_derivatives(case: Case) -> None:
-    """Catches a radius that is derived twice: ∫ ∂ψ/∂s ∂φ/∂z, which has none."""
-
-    def value(mesh: Mesh) -> float:
-        _, weight, psi, phi = case.fields(mesh, QUADRATURE_POINTS)
-        radius = 1 / np.sqrt(inverse_squared_radius(mesh, case.elements, shape(QUADRATURE_POINTS)))
-        return float(np.sum(weight * psi[..., 0] * phi[..., 1] * radius))
-
-    rows, weight, psi, phi = case.fields(case.mesh, QUADRATURE_POINTS)
-    radius = 1 / np.sqrt(inverse_squared_radius(case.mesh, case.elements, shape(QUADRATURE_POINTS)))
-    none = np.zeros(radius.shape)
-    by_psi, by_phi = np.stack((radius * phi[..., 1], none), axis=-1), np.stack((none, radius * psi[..., 0]), axis=-1)
-    found = node_derivative(
-        case.mesh,
-        case.elements,
-        rows,
-        weight,
-        shape(QUADRATURE_POINTS),
-        ((by_psi, psi), (by_phi, phi)),
-        radius * psi[..., 0] * phi[..., 1],
-        by_rows=False,
-    )
     case.check(found, value)
