@@ -11,10 +11,9 @@ from fluxbore.optimize.archive import Archive, BudgetUsedError
 from fluxbore.optimize.enumeration import Counts
 from fluxbore.optimize.evaluator import Evaluate, Evaluator
 from fluxbore.optimize.executor import SerialExecutor
+from fluxbore.optimize.free_stage import FIRST_STEP, FreeStage
 from fluxbore.optimize.outcome import Candidate
 from fluxbore.optimize.problem import Box, Merit, candidate, resolve_limits
-from fluxbore.optimize.slopes import Slopes
-from fluxbore.optimize.stages import FIRST_STEP, Stages
 from fluxbore.optimize.sweep import DEFAULT_OBJECTIVE
 
 NETWORK_CALLS = 150
@@ -59,7 +58,7 @@ def network_start(base: Spec, bounds: Box, evaluate: Evaluate, counts: Counts | 
     archive = Archive(evaluator, bounds, objective, limits, 2 * calls, fixed=counts)
     made = candidate(base, objective, limits, bounds.keys, start)
     merit = Merit(objective, objective_size(made, None, objective.figure, bounds))
-    stages = Stages(archive, base.study.search, "COBYLA", merit, limits, 0.0, Slopes(base, bounds, merit, limits))
+    stage = FreeStage(archive, base.study.search, merit, limits, 0.0)
     for algorithm in ("DIRECT-L", "COBYLA"):
         best = archive.best
         if algorithm == "COBYLA" and best is None:
@@ -67,7 +66,7 @@ def network_start(base: Spec, bounds: Box, evaluate: Evaluate, counts: Counts | 
         origin = bounds.point({key: base.number(key) for key in bounds.keys} if best is None else best.values)
         ending = nlopt_loop.minimise(
             algorithm,
-            stages.see,
+            stage.see,
             len(limits),
             origin,
             step=FIRST_STEP / 2,

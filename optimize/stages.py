@@ -8,23 +8,17 @@ from functools import cached_property, reduce
 
 from fluxbore.design.errors import FluxboreError
 from fluxbore.design.study import GRADIENT_ALGORITHMS, Search
-from fluxbore.optimize import elastic, nlopt_loop
+from fluxbore.optimize import elastic
 from fluxbore.optimize.archive import Archive, BudgetUsedError, TimeUsedError
 from fluxbore.optimize.enumeration import hopeless
 from fluxbore.optimize.evaluator import Evaluated
+from fluxbore.optimize.free_stage import FreeStage
 from fluxbore.optimize.gradient_search import NO_START
 from fluxbore.optimize.gradient_stage import GradientStage
 from fluxbore.optimize.multistart import search_from_many
 from fluxbore.optimize.outcome import Candidate, Limit, SearchEnding
-from fluxbore.optimize.polish import polish
 from fluxbore.optimize.problem import Merit, Point, better, violation
 from fluxbore.optimize.slopes import NoSlopesError, Slopes
-
-FIRST_STEP = 0.1
-"""First step of the local searches, of each variable's range."""
-
-GLOBAL_SHARE = 0.6
-"""What a global algorithm gets of the budget; the rest is for the local search after it."""
 
 RESTORING_SHARE = 0.25
 """Of the budget, kept back as long as no design is feasible: to find the least infeasible one."""
@@ -75,11 +69,14 @@ class Stages:
     ending: SearchEnding = "done"
     ran: list[str] = field(default_factory=list)
     network_calls: int = 0
-    penalties: dict[Point, float] = field(default_factory=dict)
 
     @cached_property
     def gradient(self) -> GradientStage:
         return GradientStage(self.archive, self.slopes, self.back_off, self.search.relative_tolerance)
+
+    @cached_property
+    def free(self) -> FreeStage:
+        return FreeStage(self.archive, self.search, self.merit, self.held, self.back_off)
 
     def run(self, first: Sequence[Mapping[str, float]], done: Sequence[Evaluated] | None = None) -> str:
         """Run every stage from these designs; returns in words why the search ended.
@@ -166,7 +163,7 @@ class Stages:
                 elastic.approach(self.gradient, nearest)
             except NoSlopesError:
                 elastic.approach_freely(
-                    self.gradient, self.see, archive.box.point(nearest.values), self.search.relative_tolerance * 10
+                    self.gradient, self.free.see, archive.box.point(nearest.values), self.search.relative_tolerance * 10
                 )
         except BudgetUsedError as error:
             return self.spent(error)
@@ -205,23 +202,14 @@ class Stages:
             self.note(name)
 
     def freely(self, algorithm: str, origin: Candidate) -> str:
-        """A search without derivatives: a global one is followed by a local one, and that by the polishing."""
-        archive, reason = self.archive, ""
-        point = archive.box.point(origin.values)
+        """A search without derivatives."""
         try:
-            if algorithm in nlopt_loop.GLOBAL:
-                self.note(algorithm)
-                reason = f"{algorithm} looked at the whole range; then COBYLA looked around its best. "
-                self.explore(point)
-                point = point if archive.best is None else archive.box.point(archive.best.values)
-            local = "BOBYQA" if algorithm == "BOBYQA" and len(point) > 1 else "COBYLA"
-            self.note(local)
-            self.prefetch(point, both=local == "BOBYQA")
-            reason += self.loop(local, point)
-            polish(archive, self.merit, self.held, self.back_off, self.search.relative_tolerance / 10)
+            return self.free.run(algorithm, origin)
         except BudgetUsedError as error:
-            return reason + self.spent(error)
-        return reason
+            return self.free.said + self.spent(error)
+        finally:
+            for name in self.free.ran:
+                self.note(name)
 
     def spent(self, error: BudgetUsedError) -> str:
         if isinstance(error, TimeUsedError):
@@ -236,66 +224,6 @@ class Stages:
         """The best of all designs so far, feasible or not."""
         objective = self.archive.objective
         return reduce(lambda one, other: other if better(other, one, objective) else one, self.archive.history)
-
-    def explore(self, point: Point) -> None:
-        """Let a global algorithm have its share of the budget; it finds the valley, a local one finds its floor."""
-        archive, most = self.archive, self.archive.budget
-        archive.budget = most - int((1 - GLOBAL_SHARE) * archive.left)
-        try:
-            self.loop(self.algorithm, point)
-        except BudgetUsedError:
-            pass
-        finally:
-            archive.budget = most
-
-    def loop(self, algorithm: str, point: Point) -> str:
-        """One run of NLopt over the archive; returns why it ended. Raises what stopped it from within."""
-        search = self.search
-        ending = nlopt_loop.minimise(
-            algorithm,
-            self.see,
-            len(self.held),
-            point,
-            step=FIRST_STEP,
-            objective_tolerance=search.relative_tolerance,
-            variable_tolerance=search.relative_tolerance * 10,
-            seed=search.seed,
-            calls=20 * search.max_evaluations + 1000,
-        )
-        if ending.stopped_by is not None:
-            raise ending.stopped_by
-        if all(self.merit.loss(made) is None for made in self.archive.history):
-            return "It found no design to go by."
-        return ending.reason
-
-    def see(self, x: Point) -> tuple[float, tuple[float, ...]]:
-        """What NLopt sees at a scaled point.
-
-        A design without figures is seen as worse than the worst sound one so far by the objective's own size, and as
-        missing every limit by all of it: finite, so that the algorithms' models survive it. The number stays within
-        NLopt; the history has the design with its reason.
-        """
-        made = self.archive.at(x)
-        loss = self.merit.loss(made)
-        if loss is not None:
-            return loss, tuple(miss + self.back_off for miss in self.merit.misses(made, self.held))
-        point = self.archive.box.tidy(x)
-        if point not in self.penalties:
-            sound = [loss for design in self.archive.history if (loss := self.merit.loss(design)) is not None]
-            self.penalties[point] = max(sound, default=0.0) + 1.0
-        return self.penalties[point], (1.0,) * len(self.held)
-
-    def prefetch(self, origin: Point, both: bool) -> None:
-        """Evaluate side by side what COBYLA (and on ``both`` sides BOBYQA) asks for first, one by one.
-
-        A point that is not asked for after all is a design seen, no more: the models of the polishing use it.
-        """
-        points = []
-        for i, x in enumerate(origin):
-            steps = (FIRST_STEP, -FIRST_STEP) if both else (FIRST_STEP if x + FIRST_STEP <= 1 else -FIRST_STEP,)
-            points += [self.archive.box.tidy([*origin[:i], x + step, *origin[i + 1 :]]) for step in steps]
-        fresh = [point for point in dict.fromkeys(points) if not self.archive.knows(point)][: self.archive.left]
-        self.archive.evaluate([self.archive.box.values(point) for point in fresh])
 
 
 def mishap(error: Exception) -> str:
