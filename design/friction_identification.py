@@ -21,16 +21,17 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fluxbore.design.errors import DesignError, IdentificationError
-from fluxbore.design.friction import SealFriction, check_pressure, seal_friction
+from fluxbore.design.errors import IdentificationError
+from fluxbore.design.friction import SealFriction, seal_friction
 from fluxbore.design.identification import Identified, Parameter, identify, not_identifiable
 from fluxbore.design.measurements import Column, Measurements
+from fluxbore.design.units import STANDARD_ATMOSPHERE, format_quantity
 
 Floats = NDArray[np.float64]
 
 COLUMNS = (
     Column("velocity", "speed", -100.0, 100.0),
-    Column("pressure", "pressure", 0.0, 1e9),
+    Column("pressure", "pressure", -STANDARD_ATMOSPHERE, 1e9),
     Column("force", "force", -1e6, 1e6),
 )
 """Friction over velocity: positive against a positive velocity."""
@@ -46,6 +47,9 @@ DISTINCT = 0.02
 
 SLOWEST = 1e-9
 """m/s: what is slower does not slide."""
+
+SENSOR_ZERO = 1e3
+"""Pa: a run's mean pressure this little below the atmosphere's is the atmosphere's."""
 
 LEAST_SAMPLES = 5
 """Of a run within the window, in each direction: an average of fewer says nothing of the rest."""
@@ -80,46 +84,81 @@ class Run:
     pressure: Floats
 
 
-def friction_points(measured: Measurements, window: tuple[float, float] = WINDOW) -> FrictionPoints:
-    """What a table of `COLUMNS` holds: friction as it stands, or samples in runs where `RECORD_COLUMNS` are there."""
+def friction_points(
+    measured: Measurements, *, piston_area: float = 0.0, window: tuple[float, float] = WINDOW
+) -> FrictionPoints:
+    """What a table of `COLUMNS` holds: friction as it stands, or samples in runs where `RECORD_COLUMNS` are there.
+
+    piston_area, window : for samples, as `window_friction` takes them. Raises IdentificationError for what is no
+    friction of sliding under pressure.
+    """
     if "position" in measured and "run" in measured:
         label = measured["run"]
         runs = [
             Run(*(measured[name][label == one] for name in ("position", "velocity", "force", "pressure")))
             for one in np.unique(label)
         ]
-        return window_friction(runs, measured.source, window)
-    still = np.flatnonzero(np.abs(measured["velocity"]) < SLOWEST)
-    if len(still):
+        return window_friction(runs, measured.source, piston_area=piston_area, window=window)
+    v, P = measured["velocity"], measured["pressure"]
+    for row in np.flatnonzero((np.abs(v) < SLOWEST) | (P < 0)):
+        where = f"{measured.source}, line {measured.lines[row]}"
+        if P[row] < 0:
+            raise IdentificationError(_suction(f"{where}: pressure", P[row]))
         raise IdentificationError(
-            f"{measured.source}, line {measured.lines[still[0]]}: velocity must be {SLOWEST:g} m/s or more in size, "
-            f"for friction that slides; got {measured['velocity'][still[0]]:g} m/s."
+            f"{where}: velocity must be {SLOWEST:g} m/s or more in size, for friction that slides; got {v[row]:g} m/s."
         )
-    return FrictionPoints(measured["velocity"], measured["pressure"], measured["force"], measured.source)
+    return FrictionPoints(v, P, measured["force"], measured.source)
 
 
-def window_friction(runs: Sequence[Run], source: str, window: tuple[float, float] = WINDOW) -> FrictionPoints:
+def window_friction(
+    runs: Sequence[Run], source: str, *, piston_area: float = 0.0, window: tuple[float, float] = WINDOW
+) -> FrictionPoints:
     """A point for each run, as the paper takes it: half the difference of the mean forces at positive and at negative
     velocity within the window, at the mean speed and pressure there.
 
-    What both directions share, the thrust of the pressure and the sensor's zero, drops out. Whether the load cell
-    counts push or pull as positive does not matter: friction is taken to hinder the motion on the whole.
+    piston_area : S (m^2), whose thrust S P is taken off the force first: a chamber that breathes through a slow valve
+    is at a lower pressure while the mover advances, which would pass for friction. The paper does not say that it did
+    so; zero leaves it out. What both directions share drops out. Whether the load cell counts push or pull as positive
+    does not matter: friction is taken to hinder the motion on the whole.
     """
+    halves = [_directions(run, f"{source}, run {number}", window) for number, run in enumerate(runs, start=1)]
+    hinders = sum(float(np.mean(run.force[back]) - np.mean(run.force[out])) for run, out, back in halves) >= 0
     found = []
-    for number, run in enumerate(runs, start=1):
-        inside = (run.position >= window[0]) & (run.position <= window[1])
-        out, back = (inside & (np.sign(run.velocity) == sign) for sign in (1, -1))
-        least = min(np.count_nonzero(out), np.count_nonzero(back))
-        if least < LEAST_SAMPLES:
-            raise IdentificationError(
-                f"{source}, run {number}: between {window[0] * 1e3:g} mm and {window[1] * 1e3:g} mm there must be "
-                f"{LEAST_SAMPLES} samples or more in each direction; got {least}."
+    for number, (run, out, back) in enumerate(halves, start=1):
+        force = (run.force if hinders else -run.force) - piston_area * run.pressure
+        pressure = float(np.mean(run.pressure[out]) + np.mean(run.pressure[back])) / 2
+        if pressure < -SENSOR_ZERO:
+            raise IdentificationError(_suction(f"{source}, run {number}: the mean pressure", pressure))
+        found.append(
+            (
+                (np.mean(run.velocity[out]) - np.mean(run.velocity[back])) / 2,
+                max(pressure, 0.0),
+                (np.mean(force[back]) - np.mean(force[out])) / 2,
             )
-        half = (np.mean(run.force[back]) - np.mean(run.force[out])) / 2
-        speed = (np.mean(run.velocity[out]) - np.mean(run.velocity[back])) / 2
-        found.append((speed, (np.mean(run.pressure[out]) + np.mean(run.pressure[back])) / 2, half))
-    speed, pressure, half = np.array(found, dtype=np.float64).T
-    return FrictionPoints(speed, pressure, half if np.sum(half) >= 0 else -half, source)
+        )
+    speed, pressures, friction = np.array(found, dtype=np.float64).T
+    return FrictionPoints(speed, pressures, friction, source)
+
+
+def _directions(run: Run, where: str, window: tuple[float, float]) -> tuple[Run, NDArray[np.bool_], NDArray[np.bool_]]:
+    """A run with its samples within the window that advance, and those that go back."""
+    inside = (run.position >= window[0]) & (run.position <= window[1])
+    out, back = (inside & (sign * run.velocity >= SLOWEST) for sign in (1, -1))
+    least = min(np.count_nonzero(out), np.count_nonzero(back))
+    if least < LEAST_SAMPLES:
+        raise IdentificationError(
+            f"{where}: between {window[0] * 1e3:g} mm and {window[1] * 1e3:g} mm there must be {LEAST_SAMPLES} samples "
+            f"or more in each direction; got {least}."
+        )
+    return run, out, back
+
+
+def _suction(what: str, pressure: float) -> str:
+    """Suction does not press the fin: see `friction.check_pressure`."""
+    return (
+        f"{what} must be 0 MPa gauge or above for the friction of a seal that pressure presses; "
+        f"got {format_quantity(pressure, 'pressure', 4)}."
+    )
 
 
 def identify_friction(points: FrictionPoints, area: float, *, level: float = 0.95, viscous: bool = False) -> Identified:
@@ -129,10 +168,8 @@ def identify_friction(points: FrictionPoints, area: float, *, level: float = 0.9
     follow from them. Raises IdentificationError where the data do not tell one of them, and names it.
     """
     v, P, f = points.velocity, points.pressure, points.friction
-    try:
-        check_pressure(P, f"{points.source}: pressure")
-    except DesignError as error:
-        raise IdentificationError(str(error)) from error
+    if np.min(P) < 0:
+        raise IdentificationError(_suction(f"{points.source}: pressure", float(np.min(P))))
     if not np.mean(f * np.sign(v)) > 0:
         raise IdentificationError(
             f"{points.source}: force must be friction, which is positive at positive velocities; "

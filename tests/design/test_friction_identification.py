@@ -237,6 +237,33 @@ def test_the_window_takes_half_the_difference_of_both_directions(sign: float) ->
     assert found.friction == pytest.approx([3.0, 2.5])
 
 
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_the_thrust_of_a_breathing_chamber_is_no_friction(sign: float) -> None:
+    """A pressure that is lower on the way out adds to the difference of the forces; its thrust is taken off."""
+    run = _round_trip(2e-3, 1e5, 3.0)
+    pressure = run.pressure - 4e3 * np.sign(run.velocity)
+    breathing = Run(run.position, run.velocity, sign * (run.force - 0.8 * np.sign(run.velocity)), pressure)
+    assert window_friction([breathing], "m.csv").friction == pytest.approx([3.8])
+    assert window_friction([breathing], "m.csv", piston_area=2e-4).friction == pytest.approx([3.0])
+    assert window_friction([breathing], "m.csv", piston_area=2e-4).pressure == pytest.approx([1e5])
+
+
+def test_runs_below_the_atmosphere_are_refused_and_a_sensors_zero_is_not() -> None:
+    assert window_friction([_round_trip(2e-3, -900.0, 3.0)], "m.csv").pressure.tolist() == [0.0]
+    with pytest.raises(IdentificationError, match=r"^m\.csv, run 1: the mean pressure must be 0 .*; got -0\.02 MPa"):
+        window_friction([_round_trip(2e-3, -2e4, 3.0)], "m.csv")
+
+
+def test_suction_in_a_table_is_refused_with_its_line() -> None:
+    text = "velocity,pressure [MPa gauge],force\n1,0,2\n1,-0.1,2\n"
+    with pytest.raises(IdentificationError) as caught:
+        friction_points(parse_measurements(text, "m.csv", COLUMNS))
+    assert str(caught.value) == (
+        "m.csv, line 3: pressure must be 0 MPa gauge or above for the friction of a seal that pressure presses; "
+        "got -0.1 MPa gauge."
+    )
+
+
 def test_runs_of_a_table_are_told_by_their_column() -> None:
     runs = [_round_trip(2e-3, 1e5, 3.0), _round_trip(4e-3, 2e5, 2.5)]
     text = "run,position,velocity,pressure,force\n" + "".join(
@@ -251,7 +278,7 @@ def test_runs_of_a_table_are_told_by_their_column() -> None:
 
 def test_a_run_that_misses_the_window_is_named() -> None:
     with pytest.raises(IdentificationError) as caught:
-        window_friction([_round_trip(2e-3, 1e5, 3.0)], "m.csv", (0.1e-3, 0.2e-3))
+        window_friction([_round_trip(2e-3, 1e5, 3.0)], "m.csv", window=(0.1e-3, 0.2e-3))
     assert str(caught.value) == (
         "m.csv, run 1: between 0.1 mm and 0.2 mm there must be 5 samples or more in each direction; got 0."
     )
