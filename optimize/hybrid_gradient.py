@@ -7,7 +7,7 @@ the window is represented by a p-norm, whose exponent and value come along.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from math import pi
 from typing import Any
@@ -85,6 +85,20 @@ def gradient(
     return found, {name: Norm(EXPONENT, value) for name, value in norms.items() if name in found}
 
 
+def field_gradient(
+    spec: Spec,
+    field: Field,
+    positions: Sequence[PositionResult],
+    keys: Sequence[str],
+    figures: Collection[str] | None = None,
+) -> tuple[dict[str, dict[str, float]], dict[str, float]]:
+    """Of the field's figures alone, all or those wanted: figure -> key -> derivative (SI), and the maxima's norms."""
+    base = spec.pinned(keys)
+    jacobians = Jacobians(base, field, differentiable(base, keys))
+    slopes, norms = _field_slopes(base, field, positions, jacobians, figures)
+    return {name: dict(zip(jacobians.keys, map(float, found), strict=True)) for name, found in slopes.items()}, norms
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class _Share:
     """A functional of one state, and its share in a figure: d figure / d functional. limits : whose z it has."""
@@ -96,19 +110,28 @@ class _Share:
 
 
 class _Shares:
-    """What each state gives to each figure."""
+    """What each state gives to each figure that is wanted; all are where ``wanted`` is None."""
 
-    def __init__(self, states: int) -> None:
+    def __init__(self, states: int, wanted: Collection[str] | None) -> None:
         self.of_state: list[list[_Share]] = [[] for _ in range(states)]
         self.norms: dict[str, float] = {}
+        self._wanted = wanted
 
-    def add(self, figure: str, made: Sequence[Functional], weights: Sequence[float], limits: str | None = None) -> None:
-        """A figure that is the sum of weight times functional over the first states."""
+    def wants(self, figure: str) -> bool:
+        return self._wanted is None or figure in self._wanted
+
+    def add(self, figure: str, made: Iterable[Functional], weights: Sequence[float], limits: str | None = None) -> None:
+        """A figure that is the sum of weight times functional over the first states; made only if it is wanted."""
+        if not self.wants(figure):
+            return
         for own, functional, weight in zip(self.of_state, made, weights, strict=False):
             own.append(_Share(figure, functional, weight, limits))
 
-    def add_norm(self, figure: str, made: Sequence[Functional], limits: str | None = None) -> None:
+    def add_norm(self, figure: str, made: Iterable[Functional], limits: str | None = None) -> None:
         """A figure that is the largest of the states', by its norm."""
+        if not self.wants(figure):
+            return
+        made = list(made)
         value, weights = functionals.norm(np.array([abs(item.value) for item in made]), EXPONENT)
         signs = [1.0 if item.value >= 0 else -1.0 for item in made]
         self.norms[figure] = value
@@ -116,14 +139,20 @@ class _Shares:
 
 
 def _field_slopes(
-    spec: Spec, field: Field, positions: Sequence[PositionResult], jacobians: Jacobians
+    spec: Spec,
+    field: Field,
+    positions: Sequence[PositionResult],
+    jacobians: Jacobians,
+    figures: Collection[str] | None = None,
 ) -> tuple[dict[str, Floats], dict[str, float]]:
     """Figure of the field -> derivatives by the Jacobians' keys, and the p-norms of its maxima."""
     adjoints = [TubularAdjoint(state) for state in (*field.window, *field.peaks)]
-    shares = _shares(spec, field, positions, adjoints)
+    shares = _shares(spec, field, positions, adjoints, figures)
     count = len(field.window)
     total: dict[str, Floats] = {}
     for index, (adjoint, own) in enumerate(zip(adjoints, shares.of_state, strict=True)):
+        if not own:
+            continue
         by_numbers, by_limits, by_currents = adjoint.gradients([share.functional for share in own])
         change = jacobians.numbers(index).T @ by_numbers
         if index >= count:
@@ -133,41 +162,44 @@ def _field_slopes(
             if share.limits is not None:
                 slopes = slopes + jacobians.limits(index, share.limits).T @ by_limits[:, k]
             total[share.figure] = total.get(share.figure, 0.0) + share.weight * slopes
-    total["force_constant_linkage"] += _turning(spec, positions, jacobians)
-    coercivity = intrinsic_coercivity(spec)
-    load = shares.norms["demagnetisation_load"] / coercivity
-    shares.norms["demagnetisation_load"] = load
-    total["demagnetisation_load"] = (total["demagnetisation_load"] - load * jacobians.coercivity) / coercivity
+    if shares.wants("force_constant_linkage"):
+        total["force_constant_linkage"] += _turning(spec, positions, jacobians)
+    if shares.wants("demagnetisation_load"):
+        coercivity = intrinsic_coercivity(spec)
+        load = shares.norms["demagnetisation_load"] / coercivity
+        shares.norms["demagnetisation_load"] = load
+        total["demagnetisation_load"] = (total["demagnetisation_load"] - load * jacobians.coercivity) / coercivity
     return total, shares.norms
 
 
 def _shares(
-    spec: Spec, field: Field, positions: Sequence[PositionResult], adjoints: Sequence[TubularAdjoint]
+    spec: Spec,
+    field: Field,
+    positions: Sequence[PositionResult],
+    adjoints: Sequence[TubularAdjoint],
+    wanted: Collection[str] | None,
 ) -> _Shares:
+    """Generators make the functionals, so that those of figures that nobody wants are not made."""
     actuator: HybridActuator = spec.actuator
     count = len(field.window)
     window, mean = adjoints[:count], [1 / count] * count
     at = [(item, ranges(actuator, item.position)) for item in field.window]
-    made = _Shares(len(adjoints))
-    made.add("force_constant", [item.force_constant() for item in window], mean)
-    made.add(
-        "force_constant_linkage",
-        [
-            item.linkage(factor)
-            for item, factor in zip(window, _linkage_factors(positions, actuator.mover.pole_pitch), strict=True)
-        ],
-        [1.0] * count,
-    )
-    made.add_norm("stray_field", [functionals.line_norm(item, *place.stray) for item, place in at], "stray")
-    made.add_norm("yoke_flux_density", [functionals.tube_norm(item, place.yoke_r, place.yoke_z) for item, place in at])
-    made.add_norm("cogging_force", [item.force() for item in window])
-    made.add_norm("demagnetisation_load", [functionals.reverse_norm(item.tubular, LOAD_EXPONENT) for item in adjoints])
+    factors = _linkage_factors(positions, actuator.mover.pole_pitch)
+    made = _Shares(len(adjoints), wanted)
+    made.add("force_constant", (item.force_constant() for item in window), mean)
+    linkages = (item.linkage(factor) for item, factor in zip(window, factors, strict=True))
+    made.add("force_constant_linkage", linkages, [1.0] * count)
+    made.add_norm("stray_field", (functionals.line_norm(item, *place.stray) for item, place in at), "stray")
+    made.add_norm("yoke_flux_density", (functionals.tube_norm(item, place.yoke_r, place.yoke_z) for item, place in at))
+    made.add_norm("cogging_force", (item.force() for item in window))
+    made.add_norm("demagnetisation_load", (functionals.reverse_norm(item.tubular, LOAD_EXPONENT) for item in adjoints))
     if actuator.mover.ring_width > 0:
-        made.add("ring_flux_density", [functionals.shell_mean(item, *place.ring) for item, place in at], mean, "ring")
-    made.add("gap_flux_density", [functionals.shell_mean(item, *place.gap) for item, place in at], mean, "gap")
+        made.add("ring_flux_density", (functionals.shell_mean(item, *place.ring) for item, place in at), mean, "ring")
+    made.add("gap_flux_density", (functionals.shell_mean(item, *place.gap) for item, place in at), mean, "gap")
     middle = count // 2
-    made.of_state[middle].append(_Share("phase_inductance", window[middle].inductance(), 1.0))
-    if field.peaks:
+    if made.wants("phase_inductance"):
+        made.of_state[middle].append(_Share("phase_inductance", window[middle].inductance(), 1.0))
+    if field.peaks and made.wants("peak_force"):
         made.of_state[count].append(_Share("peak_force", adjoints[count].force(), 1.0))
         made.of_state[middle].append(_Share("peak_force", window[middle].force(), -1.0))
     return made

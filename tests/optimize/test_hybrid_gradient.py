@@ -15,8 +15,8 @@ from fluxbore.fem.linear import BandedCholesky
 from fluxbore.fem.threads import one_thread
 from fluxbore.optimize.evaluate import evaluate
 from fluxbore.optimize.evaluation import Evaluation
-from fluxbore.optimize.hybrid_field import solve_field
-from fluxbore.optimize.hybrid_gradient import STEPWISE
+from fluxbore.optimize.hybrid_field import field_figures, position_result, solve_field
+from fluxbore.optimize.hybrid_gradient import STEPWISE, field_gradient
 from fluxbore.optimize.partials import differentiable
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
@@ -65,6 +65,24 @@ def test_against_differences(designs: Designs, found: Evaluation, key: str) -> N
         told += 1
         assert found.gradient[name][key] == pytest.approx(own.value, abs=1e-6 * size_of_error), name
     assert told > 40
+
+
+def test_some_figures_alone(spec: Spec, found: Evaluation) -> None:
+    """Catches a figure whose derivative depends on which others are wanted, and work on those that are not."""
+    assert found.gradient is not None
+    with one_thread():
+        field = solve_field(spec)
+        positions = tuple(position_result(item, spec.actuator.mover.pole_pitch) for item in field.window)
+        keys = list(found.gradient["force_constant"])
+        every, norms = field_gradient(spec, field, positions, keys)
+        assert set(every) == set(field_figures(spec, field, positions)) - set(STEPWISE)
+        for names in ({"cogging_force", "peak_force"}, {"force_constant"}, {"stray_field", "phase_inductance"}):
+            some, their_norms = field_gradient(spec, field, positions, keys, names)
+            assert set(some) == names
+            assert set(their_norms) == set(norms) & names
+            for name in names:
+                scale = max(abs(value) for value in found.gradient[name].values())
+                assert some[name] == pytest.approx(found.gradient[name], abs=1e-8 * scale)
 
 
 def test_norms_are_those_of_the_differences(designs: Designs, found: Evaluation) -> None:
