@@ -89,7 +89,7 @@ CONTACT_FORCE_KEYS: tuple[Key, ...] = (
         dimension="time",
         above=0.0,
         maximum=_LONGEST,
-        default=0.145,
+        default=0.14,
     ),
     Key(
         "benchmark.mcfc.chamber_volume",
@@ -133,7 +133,7 @@ CONTACT_FORCE_KEYS: tuple[Key, ...] = (
         maximum=0.1,
         default=1e-3,
     ),
-    _time("velocity_filter", "time constant of the first-order filter behind the encoder's difference", 0.0256),
+    _time("velocity_filter", "time constant of the first-order filter behind the encoder's difference", 0.031),
     Key(
         "benchmark.mcfc.noise",
         "standard deviation of one reading of the load cell",
