@@ -1,13 +1,14 @@
 """Pressure in an air chamber with a moving piston, under a pressure control valve.
 
-The valve sends mass so that the absolute pressure p nears the wanted one, p_w, as a first-order lag of time constant T
-would, while the piston's motion changes the volume V (Beater 2007, the mass balance of a chamber with a polytropic
-exponent; a valve with its own control loop stands for the throttle):
+The energy balance of a chamber without heat through its walls is p' = gamma (R T m' - p V')/V (adiabatic; gamma = 1
+for isothermal air: both are in the reference of MathWorks' Simscape, block Pneumatic Piston Chamber, and are the usual
+models of chambers by Carneiro and de Almeida 2006, who find them coarse where air is exchanged fast). The valve has a
+loop of its own, taken as sending mass so that the absolute pressure p nears the wanted one, p_w, with a time constant:
 
     p' = (p_w - p)/T - gamma p V'/V
 
 With q = p V^gamma this is the constant-coefficient lag T q' + q = p_w V^gamma, whatever V does. Valid while p stays
-above zero and the valve within its flow; the balance is from handbook knowledge, not from a source opened here.
+above zero and the valve within its flow.
 """
 
 from __future__ import annotations
