@@ -126,7 +126,8 @@ def parse_measurements(
         for reader, kept in zip(readers, values, strict=True):
             kept.append(reader.value(source, number, cells[reader.place]))
     if len(numbers) < least_rows:
-        raise MeasurementError(f"{source} must have {least_rows} rows or more below its header; got {len(numbers)}.")
+        rows = f"{least_rows} row{'s' if least_rows > 1 else ''}"
+        raise MeasurementError(f"{source} must have {rows} or more below its header; got {len(numbers)}.")
     found = {reader.column.name: np.array(kept, dtype=np.float64) for reader, kept in zip(readers, values, strict=True)}
     return Measurements(source, found, np.array(numbers, dtype=np.int64))
 
