@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from fluxbore.design.dynamics.simulation import Simulation
 from fluxbore.design.keys import Value
 from fluxbore.design.spec import Spec
 from fluxbore.optimize.evaluation import OK, Evaluation
 
-Simulate = Callable[[Spec, Any, int, bool], Simulation]
+if TYPE_CHECKING:
+    from fluxbore.design.dynamics.simulation import Simulation
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,9 +53,9 @@ class Benchmark:
     name : on the command line, and that of its section of keys, ``benchmark.mcfc``. title : what it is, in words.
     source : whose experiment it is. designs : of a design, those around it, by their values, whose evaluations show
     the field that the simulation moves through. field : what the simulation takes of those evaluations. simulate : one
-    seed, with traces or without; a worker finds it by its name, so it stands in a module. settings, results : columns
-    of a trial with their dimensions. published : the figures that a table shows. limits : what agreement with the
-    source does not show, in sentences.
+    seed, with traces or without; a worker finds it by its name, so it stands in a module. published : the figures that
+    a table shows. causes : what of a design its results come from, which makes those of two designs differ. limits :
+    what agreement with the source does not show, in sentences.
     """
 
     name: str
@@ -63,8 +63,9 @@ class Benchmark:
     source: str
     designs: Callable[[Spec], Sequence[Mapping[str, Value]]]
     field: Callable[[Spec, Sequence[Evaluation]], Any]
-    simulate: Simulate
+    simulate: Callable[[Spec, Any, int, bool], Simulation]
     published: tuple[Published, ...] = ()
+    causes: tuple[Published, ...] = ()
     limits: tuple[str, ...] = ()
 
     @property

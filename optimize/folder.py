@@ -20,7 +20,16 @@ from fluxbore.optimize.journal import Journal
 
 MARKER = ".fluxbore.json"
 JOURNAL = "journal.jsonl"
-OUTPUTS = ("results.csv", "results.parquet", "front.csv", "tolerance.csv", "design.toml", "report.html")
+OUTPUTS = (
+    "results.csv",
+    "results.parquet",
+    "front.csv",
+    "tolerance.csv",
+    "traces.parquet",
+    "figures.json",
+    "design.toml",
+    "report.html",
+)
 """Results at the folder's top that belong to one specification; those of another one do not stay beside them."""
 
 CAD = "cad"

@@ -9,11 +9,11 @@ from time import monotonic
 from typing import Any
 
 from fluxbore.design.dynamics.simulation import Simulation
-from fluxbore.design.errors import FluxboreError
+from fluxbore.design.errors import FluxboreError, SpecError
 from fluxbore.design.spec import Spec
 from fluxbore.optimize.benchmark import Benchmark, BenchmarkResult, DesignRun
 from fluxbore.optimize.evaluate import evaluate
-from fluxbore.optimize.evaluation import FAILED, INVALID, OK, Evaluation, Fidelity
+from fluxbore.optimize.evaluation import FAILED, OK, Evaluation, Fidelity, failure
 from fluxbore.optimize.evaluator import Evaluator
 from fluxbore.optimize.executor import Executor
 from fluxbore.optimize.journal import Journal, strict
@@ -23,6 +23,9 @@ from fluxbore.optimize.simulation_record import from_plain, simulation_key, to_p
 from fluxbore.optimize.simulation_table import TRACES, read_traces
 
 KIND = "simulation"
+
+REFUSED = "refused"
+"""The status of a design that the benchmark cannot take, such as one whose stroke is too short for it."""
 
 
 @dataclass(slots=True)
@@ -61,9 +64,12 @@ def run_benchmark(
     """Every design with every seed, in the executor's processes.
 
     designs : by label, the study's own first; its first seed comes with traces. traces : a folder whose traces are
-    taken where they are that seed's. A design without figures keeps its reasons, and does not stop the others.
+    taken where they are that seed's. Another design without figures keeps its reasons, and does not stop the others.
+
+    Raises SpecError where the study's own design cannot be put through it as its specification stands.
     """
     seen = [_seen(benchmark, label, spec, executor, journal, fidelity) for label, spec in designs]
+    _check(seen[0])
     keys: dict[tuple[int, int], str] = {}
     waiting: list[tuple[int, int]] = []
     for number, design in enumerate(seen):
@@ -89,7 +95,8 @@ def run_benchmark(
             seen[number].seeds[seed] = _recorded(journal, keys[number, seed], outcome.value)
         elif isinstance(outcome.value, str):
             failed += 1
-            seen[number].fail(INVALID, (outcome.value,))
+            seen[number].fail(REFUSED, (outcome.value,))
+            _check(seen[0])
         else:
             failed += 1
             seen[number].fail(FAILED, (outcome.failure or "The simulation failed.",))
@@ -103,7 +110,11 @@ def _seen(
 ) -> _Design:
     """The design with its field."""
     evaluator = Evaluator(spec, executor, journal, fidelity, evaluate, KIND)
-    own, *around = [item.evaluation for item in evaluator.all([{}, *benchmark.designs(spec)])]
+    try:
+        around_it = benchmark.designs(spec)
+    except FluxboreError as error:
+        return _Design(label, spec, failure(fidelity, REFUSED, str(error)), None, REFUSED, (str(error),))
+    own, *around = [item.evaluation for item in evaluator.all([{}, *around_it])]
     design = _Design(label, spec, own)
     bad = next((item for item in (own, *around) if not item.ok), None)
     if bad is not None:
@@ -112,8 +123,14 @@ def _seen(
     try:
         design.surroundings = benchmark.field(spec, around)
     except FluxboreError as error:
-        design.fail(INVALID, (str(error),))
+        design.fail(REFUSED, (str(error),))
     return design
+
+
+def _check(own: _Design) -> None:
+    """A refused design is what the specification asks for: its sentence is the user's."""
+    if own.status == REFUSED:
+        raise SpecError(" ".join(own.reasons))
 
 
 def _known(journal: Journal | None, key: str, folder: Path | None, traced: bool) -> Simulation | None:
@@ -147,7 +164,7 @@ def _simulate(task: tuple[Any, Spec, Any, int, bool]) -> Simulation | str:
 
 
 def _tell(progress: Report | None, done: int, total: int, reused: int, failed: int, begin: float) -> None:
-    if progress is None:
+    if progress is None or total == 0:
         return
     rate = (done - reused) / max(monotonic() - begin, 1e-9) if done > reused + 1 else None
     left = (total - done) / rate if rate else None

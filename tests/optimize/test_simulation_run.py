@@ -11,6 +11,7 @@ import pytest
 from benchmark_toy import TOY
 from coil_study import SPEC
 
+from fluxbore.design.errors import SpecError
 from fluxbore.design.spec import loads
 from fluxbore.optimize.executor import local_executor
 from fluxbore.optimize.journal import Journal
@@ -60,10 +61,12 @@ def test_a_design_that_cannot_be_simulated_keeps_its_reason(spec):
     bad = spec.with_values({DENSITY: -spec.number(DENSITY)})
     result = run([("own", spec), ("bad", bad)], (1, 2))
     assert result.ok
-    assert result.against[0].status == "invalid"
+    assert result.against[0].status == "refused"
     assert result.against[0].reasons == ("A current against the field cannot be simulated.",)
     assert result.against[0].figures == {}
     assert result.against[0].simulations == ()
+    with pytest.raises(SpecError, match="cannot be simulated"):
+        run([("bad", bad), ("own", spec)], (1, 2))
 
 
 def test_the_journal_spares_every_seed_that_it_holds(spec, calls, tmp_path):
