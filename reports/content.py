@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from fluxbore.design.spec import Spec
 from fluxbore.geometry.assembly import Assembly
+from fluxbore.optimize.benchmark import BenchmarkResult
 from fluxbore.optimize.evaluation import Evaluation
 from fluxbore.optimize.outcome import Candidate, Check, SearchResult, SweepResult
 from fluxbore.optimize.pareto_result import ParetoResult
@@ -102,6 +103,7 @@ class ReportContent:
     seconds : wall time of the whole run.
     words : what the actuator's kind calls things.
     front, tolerance, robust : what the study asked for besides a search.
+    simulation : the benchmark in simulated time that the design was put through.
     """
 
     spec: Spec
@@ -128,6 +130,7 @@ class ReportContent:
     front: ParetoResult | None = None
     tolerance: ToleranceResult | None = None
     robust: RobustResult | None = None
+    simulation: BenchmarkResult | None = None
 
     @property
     def design_spec(self) -> Spec:
