@@ -23,9 +23,11 @@ from typing import TYPE_CHECKING, Any
 __version__ = "0.1.0"
 
 __all__ = [
+    "BenchmarkResult",
     "Evaluation",
     "FemmSolution",
     "FluxboreError",
+    "Identification",
     "ParetoResult",
     "Performance",
     "RobustResult",
@@ -36,22 +38,39 @@ __all__ = [
     "design",
     "evaluate",
     "export",
+    "identify",
     "load",
     "optimize",
     "pareto",
     "report",
     "robust",
+    "simulate",
     "solve",
     "sweep",
     "tolerance",
 ]
 
 if TYPE_CHECKING:
-    from fluxbore.api import design, evaluate, export, load, optimize, pareto, report, robust, sweep, tolerance
+    from fluxbore.api import (
+        design,
+        evaluate,
+        export,
+        identify,
+        load,
+        optimize,
+        pareto,
+        report,
+        robust,
+        simulate,
+        sweep,
+        tolerance,
+    )
     from fluxbore.design.errors import FluxboreError
     from fluxbore.design.performance import Performance
     from fluxbore.design.spec import Spec
     from fluxbore.fem.femm_solution import FemmSolution
+    from fluxbore.identifying import Identification
+    from fluxbore.optimize.benchmark import BenchmarkResult
     from fluxbore.optimize.evaluation import Evaluation
     from fluxbore.optimize.outcome import SearchResult, SweepResult
     from fluxbore.optimize.pareto_result import ParetoResult
@@ -59,10 +78,12 @@ if TYPE_CHECKING:
     from fluxbore.solving import solve
 
 _HOMES = {
+    "BenchmarkResult": "fluxbore.optimize.benchmark",
     "FluxboreError": "fluxbore.design.errors",
     "Performance": "fluxbore.design.performance",
     "Spec": "fluxbore.design.spec",
     "FemmSolution": "fluxbore.fem.femm_solution",
+    "Identification": "fluxbore.identifying",
     "Evaluation": "fluxbore.optimize.evaluation",
     "SearchResult": "fluxbore.optimize.outcome",
     "SweepResult": "fluxbore.optimize.outcome",

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from fluxbore import hybrid_views
@@ -11,6 +11,8 @@ from fluxbore.design.spec import Spec
 from fluxbore.fem import femm_coils
 from fluxbore.geometry import coils
 from fluxbore.geometry.assembly import Assembly
+from fluxbore.optimize.benchmark import Benchmark
+from fluxbore.optimize.hybrid_contact_force import MCFC
 from fluxbore.reports import kind_words
 from fluxbore.reports.kind_words import PLAIN, KindWords
 
@@ -25,7 +27,8 @@ class Actuator:
 
     assembly : its parts where they stand in the middle of the stroke. words : what its report calls things.
     flux_map : its field at no current, for a picture. slots : the slotted-slotless comparison. femm_model : its
-    cross-section as a FEMM model. What a kind does not have is None.
+    cross-section as a FEMM model. benchmarks : the experiments in simulated time that it can be put through, by name.
+    What a kind does not have is None, or empty.
     """
 
     assembly: Callable[[Spec], Assembly]
@@ -33,6 +36,7 @@ class Actuator:
     flux_map: Callable[[Spec], FluxMap | None] | None = None
     slots: Callable[[Spec], SlotComparison | None] | None = None
     femm_model: Callable[[Spec], FemmModel] | None = None
+    benchmarks: Mapping[str, Benchmark] = field(default_factory=dict)
 
 
 ACTUATORS: dict[str, Actuator] = {
@@ -43,6 +47,7 @@ ACTUATORS: dict[str, Actuator] = {
         hybrid_views.flux_map,
         hybrid_views.slot_comparison,
         hybrid_views.femm_model,
+        {MCFC.name: MCFC},
     ),
 }
 """Every kind of actuator by its name in the specification."""

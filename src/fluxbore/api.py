@@ -15,6 +15,7 @@ from fluxbore.design.spec import Spec
 from fluxbore.design_result import DesignResult, judged
 from fluxbore.design_steps import every_design, search_design, with_front, with_tolerances
 from fluxbore.evaluating import evaluate
+from fluxbore.identifying import identify
 from fluxbore.optimize.evaluate import evaluate as evaluate_design
 from fluxbore.optimize.evaluation import Evaluation
 from fluxbore.optimize.evaluator import Evaluator
@@ -25,7 +26,8 @@ from fluxbore.optimize.progress import Report as ProgressReport
 from fluxbore.optimize.search import check_study, one_at_a_time
 from fluxbore.optimize.sweep import run_sweeps
 from fluxbore.reading import as_spec, load, need
-from fluxbore.report_file import write_report_file
+from fluxbore.report_file import REPORT_FILE, write_report_file
+from fluxbore.simulating import simulate
 from fluxbore.studies import optimize, pareto, robust, sweep, tolerance
 from fluxbore.workshop import DESIGN_FILE, design_text, workshop
 
@@ -37,16 +39,17 @@ __all__ = [
     "design",
     "evaluate",
     "export",
+    "identify",
     "load",
     "optimize",
     "pareto",
     "report",
     "robust",
+    "simulate",
     "sweep",
     "tolerance",
 ]
 
-REPORT_FILE = "report.html"
 CAD_FOLDER = "cad"
 
 Say = Callable[[str], None]

@@ -12,7 +12,7 @@ from collections.abc import Callable, Sequence
 from io import TextIOWrapper
 from typing import Any, NoReturn
 
-from fluxbore import __version__, solve_command, study_command
+from fluxbore import __version__, identify_command, simulate_command, solve_command, study_command
 from fluxbore.design.errors import FluxboreError, one_line
 from fluxbore.exit_status import DONE, INPUT_WRONG, INTERRUPTED, NOT_VALID, PROGRAM_FAULT
 from fluxbore.spec_options import count, path_name, read_spec, with_spec
@@ -93,7 +93,8 @@ def _parser() -> argparse.ArgumentParser:
     def answering(run: study_command.Run) -> Callable[[argparse.Namespace], int]:
         return lambda options: _answer(run(options))
 
-    study_command.add_to(lambda name, run, text: add(name, answering(run), text))
+    for commands_of in (study_command, simulate_command, identify_command):
+        commands_of.add_to(lambda name, run, text: add(name, answering(run), text))
 
     export = with_spec(add("export", _export, "write the design as STEP files or as a FEMM model"))
     export.add_argument("-o", "--output", metavar="DIR", type=path_name, required=True, help="folder for the files")

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from fluxbore.design.spec import Spec
 from fluxbore.design.study import Constraint
+from fluxbore.optimize.benchmark import BenchmarkResult
 from fluxbore.optimize.evaluation import OK, Evaluation
 from fluxbore.optimize.outcome import Candidate, Check, SearchResult, SweepResult
 from fluxbore.optimize.pareto_result import ParetoResult
@@ -23,6 +24,7 @@ class DesignResult:
     status : "ok", or in a few words why the result is not one to build: "no feasible design", "not converged", ...
     reasons : the same in sentences. warnings : what could not be made, such as STEP files without libGL.
     front, tolerance, robust : what the study asked for besides; of a robust search ``search`` is the round chosen.
+    simulation : the benchmark in simulated time that the design was put through.
     """
 
     spec: Spec
@@ -37,6 +39,7 @@ class DesignResult:
     front: ParetoResult | None = None
     tolerance: ToleranceResult | None = None
     robust: RobustResult | None = None
+    simulation: BenchmarkResult | None = None
 
     @property
     def ok(self) -> bool:

@@ -13,6 +13,8 @@ from fluxbore.optimize.evaluate import evaluate as evaluate_design
 from fluxbore.optimize.evaluation import Evaluation
 from fluxbore.optimize.outcome import Candidate
 
+REPORT_FILE = "report.html"
+
 AS_DRAWN = "Tolerances of manufacture: every dimension is taken as drawn; the study has no production."
 
 
@@ -59,6 +61,7 @@ def write_report_file(
         front=findings.front,
         tolerance=findings.tolerance,
         robust=findings.robust,
+        simulation=findings.simulation,
     )
     return write_report(content, path)
 

@@ -79,7 +79,7 @@ def _sweep(options: argparse.Namespace) -> Answer:
 
     spec = read_spec(options)
     with Bar(options.quiet) as bar:
-        results = sweep(spec, options.output, fidelity=options.fidelity, progress=bar.show, **_run_options(options))
+        results = sweep(spec, options.output, fidelity=options.fidelity, progress=bar.show, **run_options(options))
     status = DONE if any(row.evaluation.ok for result in results for row in result.rows) else NOT_VALID
     return Answer(status, sweeps_plain(spec, results) if options.json else sweeps_text(spec, results))
 
@@ -91,7 +91,7 @@ def _optimize(options: argparse.Namespace) -> Answer:
 
     spec = read_spec(options)
     with Bar(options.quiet) as bar:
-        result = optimize(spec, options.output, progress=bar.show, **_run_options(options))
+        result = optimize(spec, options.output, progress=bar.show, **run_options(options))
     done = DONE if result.chosen is not None and result.ending == "done" else NOT_VALID
     status = INTERRUPTED if result.ending == "interrupted" else done
     return Answer(status, search_plain(result) if options.json else search_text(spec, result))
@@ -104,7 +104,7 @@ def _pareto(options: argparse.Namespace) -> Answer:
 
     spec = read_spec(options)
     with Bar(options.quiet) as bar:
-        result = pareto(spec, options.output, progress=bar.show, **_run_options(options))
+        result = pareto(spec, options.output, progress=bar.show, **run_options(options))
     done = DONE if result.front and result.ending == "done" else NOT_VALID
     status = INTERRUPTED if result.ending == "interrupted" else done
     return Answer(status, pareto_plain(result) if options.json else pareto_text(spec, result))
@@ -119,7 +119,7 @@ def _tolerance(options: argparse.Namespace) -> Answer:
     try:
         with Bar(options.quiet) as bar:
             result = tolerance(
-                spec, options.output, fidelity=options.fidelity, progress=bar.show, **_run_options(options)
+                spec, options.output, fidelity=options.fidelity, progress=bar.show, **run_options(options)
             )
     except DesignError as error:  # it was evaluated, and there is nothing that could scatter
         plain = {"status": "not analysed", "reasons": [str(error)]}
@@ -135,7 +135,7 @@ def _robust(options: argparse.Namespace) -> Answer:
 
     spec = read_spec(options)
     with Bar(options.quiet) as bar:
-        result = robust(spec, options.output, progress=bar.show, **_run_options(options))
+        result = robust(spec, options.output, progress=bar.show, **run_options(options))
     interrupted = result.rounds[-1].search.ending == "interrupted"
     status = INTERRUPTED if interrupted else DONE if result.reached else NOT_VALID
     if options.json:
@@ -169,10 +169,10 @@ def _design(options: argparse.Namespace) -> Answer:
             say=bar.say,
             picture=not options.no_picture,
             command=options.arguments,
-            **_run_options(options),
+            **run_options(options),
         )
     return Answer(DONE if result.ok else NOT_VALID, design_plain(result) if options.json else design_text(spec, result))
 
 
-def _run_options(options: argparse.Namespace) -> dict[str, Any]:
+def run_options(options: argparse.Namespace) -> dict[str, Any]:
     return {name: getattr(options, name) for name in ("workers", "scheduler", "time_limit", "force")}

@@ -1,0 +1,170 @@
+"""The Python interface to benchmarks in simulated time."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+from fluxbore.actuators import actuator_of
+from fluxbore.design.errors import OutputError, SpecError, shown
+from fluxbore.design.spec import Spec
+from fluxbore.design_result import judged
+from fluxbore.optimize.benchmark import Benchmark, BenchmarkResult
+from fluxbore.optimize.benchmark_plain import result_plain
+from fluxbore.optimize.evaluate import evaluate as evaluate_design
+from fluxbore.optimize.evaluation import Evaluation, Fidelity
+from fluxbore.optimize.evaluator import Evaluator
+from fluxbore.optimize.folder import Folder
+from fluxbore.optimize.progress import Report
+from fluxbore.optimize.simulation_record import simulation_key
+from fluxbore.optimize.simulation_run import KIND, run_benchmark
+from fluxbore.optimize.simulation_table import FILE_NAME, HEAD, TRACES, traces_table, trials_table
+from fluxbore.reading import as_spec
+from fluxbore.report_file import REPORT_FILE, write_report_file
+from fluxbore.workshop import Workshop, workshop
+
+FIGURES_FILE = "figures.json"
+
+MOST_SEEDS = 1000
+LARGEST_SEED = 2**31 - 1
+
+
+def simulate(
+    spec: Spec | Path | str,
+    benchmark: str,
+    folder: Path | str | None = None,
+    *,
+    seeds: int = 5,
+    seed: int = 1,
+    against: Sequence[Spec | Path | str] = (),
+    fidelity: Fidelity = "fem",
+    workers: int | None = None,
+    scheduler: str | None = None,
+    time_limit: float | None = None,
+    force: bool = False,
+    progress: Report | None = None,
+    picture: bool = True,
+    command: Sequence[str] | None = None,
+) -> BenchmarkResult:
+    """Put the specification's design through a benchmark of its kind, such as "mcfc".
+
+    seeds : how many; the first is ``seed``, each other one more. against : other designs, put through the same with
+    the specification's own section of the benchmark, so that only the designs differ. folder : gets ``results.csv``,
+    ``traces.parquet``, ``figures.json``, ``report.html`` and the journal, from which the same run takes what it has.
+    fidelity : what computes the field that the mover passes. picture : whether the report has a rendered view.
+
+    Look at ``.ok`` first: a design whose field does not converge comes back without figures and with its reasons.
+    Raises SpecError for a benchmark that the kind does not have, for seeds beyond their range and for designs that
+    cannot be set against this one; OutputError for a folder with other results.
+    """
+    spec = as_spec(spec)
+    chosen = benchmark_of(spec, benchmark)
+    numbers = _seeds(seeds, seed)
+    designs = [(spec.word("actuator.name"), spec), *_others(chosen, spec, against)]
+    with workshop(spec, folder, workers, scheduler, time_limit, force) as shop:
+        place = shop.folder
+        if place is not None and not force:
+            _refuse_studies(place)
+        result = run_benchmark(
+            chosen,
+            designs,
+            numbers,
+            shop.executor,
+            shop.journal,
+            fidelity,
+            progress,
+            place.path if place is not None else None,
+        )
+        if place is None or not result.ok:
+            return result
+        return replace(result, files=tuple(_write(place, shop, spec, result, fidelity, picture, command)))
+
+
+def benchmark_of(spec: Spec, name: str) -> Benchmark:
+    """The benchmark of this name. Raises SpecError where the specification's kind does not have it."""
+    known = actuator_of(spec).benchmarks
+    if name not in known:
+        has = f"be one of {', '.join(known)}" if known else "be left out"
+        raise SpecError(
+            f"benchmark must {has} for an actuator of kind {spec.kind.name}{'' if known else ', which has none'}; "
+            f"got {shown(name)}."
+        )
+    return known[name]
+
+
+def _seeds(count: int, first: int) -> tuple[int, ...]:
+    if not 1 <= count <= MOST_SEEDS:
+        raise SpecError(f"seeds must be from 1 to {MOST_SEEDS}; got {shown(count)}.")
+    if not 0 <= first <= LARGEST_SEED:
+        raise SpecError(f"seed must be from 0 to {LARGEST_SEED}; got {shown(first)}.")
+    return tuple(range(first, first + count))
+
+
+def _others(benchmark: Benchmark, spec: Spec, against: Sequence[Spec | Path | str]) -> list[tuple[str, Spec]]:
+    """The other designs by their labels, on the specification's own test stand."""
+    found: list[tuple[str, Spec]] = []
+    labels = {spec.word("actuator.name")}
+    for item in against:
+        other = as_spec(item)
+        label = other.word("actuator.name") if isinstance(item, Spec) else str(Path(item).with_suffix(""))
+        if other.kind is not spec.kind:
+            raise SpecError(
+                f"against must name designs of kind {spec.kind.name}, as the specification's is; "
+                f"{shown(label)} is of kind {other.kind.name}."
+            )
+        if label in labels:
+            raise SpecError(f"against must name every design once, and not the specification's; got {shown(label)}.")
+        labels.add(label)
+        found.append((label, on_the_stand_of(spec, benchmark, other)))
+    return found
+
+
+def on_the_stand_of(spec: Spec, benchmark: Benchmark, other: Spec) -> Spec:
+    """The other design with the specification's keys of the benchmark, and only those."""
+    given = {key: value for key, value in other.given.items() if not key.startswith(benchmark.section)}
+    own = {key: value for key, value in spec.given.items() if key.startswith(benchmark.section)}
+    notes = tuple(note for note in other.notes if not note.key.startswith(benchmark.section))
+    return replace(other, given={**given, **own}, notes=notes)
+
+
+def _refuse_studies(place: Folder) -> None:
+    """Raise OutputError where results.csv is that of a sweep or a search, which nothing here may replace."""
+    table = place.path / FILE_NAME
+    if not table.exists():
+        return
+    with table.open(encoding="utf-8", errors="replace") as file:
+        head = file.readline()
+    if not head.startswith(",".join(HEAD) + ","):
+        raise OutputError(
+            f"{place.path} must be empty or hold simulations; it holds {FILE_NAME} of a study (see --force)."
+        )
+
+
+def _write(
+    place: Folder,
+    shop: Workshop,
+    spec: Spec,
+    result: BenchmarkResult,
+    fidelity: Fidelity,
+    picture: bool,
+    command: Sequence[str] | None,
+) -> list[Path]:
+    first = result.run.simulations[0]
+    key = simulation_key(result.benchmark, spec, fidelity, result.run.field, first.seed)
+    files = [
+        place.write(FILE_NAME, trials_table(result.runs)),
+        place.write(TRACES, traces_table(first, key)),
+        place.write(FIGURES_FILE, json.dumps(result_plain(result), indent=1, allow_nan=False) + "\n"),
+    ]
+    found = replace(judged(spec, _by_fem(spec, shop, result, fidelity)), simulation=result)
+    files.append(write_report_file(spec, found, place.path / REPORT_FILE, None, picture, command, None))
+    return files
+
+
+def _by_fem(spec: Spec, shop: Workshop, result: BenchmarkResult, fidelity: Fidelity) -> Evaluation:
+    """The design as a report shows it, whatever the field of the simulation was computed by."""
+    if fidelity == "fem":
+        return result.run.evaluation
+    return Evaluator(spec, shop.executor, shop.journal, "fem", evaluate_design, KIND).all([{}])[0].evaluation
