@@ -76,8 +76,9 @@ def compare(cells: Mapping[str, Floats]) -> tuple[Comparison, ...]:
     for first, second in pairs:
         a, b = cells[first], cells[second]
         differences = np.asarray(a - b)
-        if np.any(differences):
-            test = stats.wilcoxon(differences)
+        differing = differences[differences != 0]
+        if len(differing):
+            test = stats.wilcoxon(differing)
             statistic, p = float(test.statistic), float(test.pvalue)
         else:
             statistic, p = 0.0, 1.0

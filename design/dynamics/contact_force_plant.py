@@ -35,7 +35,8 @@ class ContactForcePlant:
 
     law : (6) as the controller knows it; seal : the friction as it is. chamber : at the cap end, the other end being
     open. position : of the mover before the disturbance (m, as in the force map). force_constant : the controller's.
-    step : of the simulation (s), of which a control period has `steps`.
+    friction_scatter : standard deviation, from run to
+    run, over the mean. step : of the simulation (s), of which a control period has `steps`.
     """
 
     law: SealFriction
@@ -52,6 +53,7 @@ class ContactForcePlant:
     driver_delay: float
     driver_lag: float
     noise: float
+    friction_scatter: float
     steps: int
 
     @property
@@ -84,14 +86,14 @@ class ContactForcePlant:
         area, law = pneumatics.piston_area(actuator), seal_law(values, contact_force)
         share, period, stroke = number("friction_share"), number("control_period"), number("stroke")
         mass = _own("benchmark.mcfc.moving_mass", values, moving_mass)
+        back, position = passed_positions(actuator, values)
         least = OVERSHOOT * stroke * area
         if number("chamber_volume") < least:
             raise SpecError(
-                "benchmark.mcfc.chamber_volume must be at least what the piston sweeps over two strokes, "
-                f"{format_quantity(least, 'volume', 4)}; got {format_quantity(number('chamber_volume'), 'volume', 4)}."
+                "benchmark.mcfc.chamber_volume must be at least what the piston sweeps over twice "
+                f"benchmark.mcfc.stroke, {format_quantity(least, 'volume', 4)}; got {format_quantity(number('chamber_volume'), 'volume', 4)}."
             )
         given = values.get("benchmark.mcfc.force_constant")
-        back, position = passed_positions(actuator, values)
         constant = force_map.within(back, position).mean_force_constant if given is None else float(given)
         if not constant > 0:
             raise SpecError(
@@ -100,16 +102,8 @@ class ContactForcePlant:
             )
         return cls(
             law=law,
-            seal=Bristle(
-                replace(
-                    law,
-                    static_coefficient=share * law.static_coefficient,
-                    coulomb_coefficient=share * law.coulomb_coefficient,
-                    viscous_coefficient=share * law.viscous_coefficient,
-                ),
-                contact_area(actuator),
-                number("bristle_stiffness"),
-                number("bristle_damping"),
+            seal=scaled(
+                Bristle(law, contact_area(actuator), number("bristle_stiffness"), number("bristle_damping")), share
             ),
             chamber=Chamber(number("chamber_volume"), area, number("gas_exponent"), number("valve_lag")),
             load=LoadActuator(number("load_frequency"), number("load_damping")),
@@ -123,8 +117,23 @@ class ContactForcePlant:
             driver_delay=number("driver_delay"),
             driver_lag=number("driver_lag"),
             noise=number("noise"),
+            friction_scatter=number("friction_scatter"),
             steps=max(1, math.ceil(period / number("time_step") - 1e-9)),
         )
+
+
+def scaled(seal: Bristle, share: float) -> Bristle:
+    """The seal with its friction multiplied by a share of zero or more, its contact force being as it was."""
+    law = seal.law
+    return replace(
+        seal,
+        law=replace(
+            law,
+            static_coefficient=share * law.static_coefficient,
+            coulomb_coefficient=share * law.coulomb_coefficient,
+            viscous_coefficient=share * law.viscous_coefficient,
+        ),
+    )
 
 
 def seal_law(values: Values, contact_force: float | None = None) -> SealFriction:

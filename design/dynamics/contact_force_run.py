@@ -12,14 +12,14 @@ the friction on top (Nakata and Noda 2023, Sec. III and IV-D). Everything is rea
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fluxbore.design.bristle import bristle_force, bristle_record
 from fluxbore.design.dynamics.chamber import pressures, swelling
-from fluxbore.design.dynamics.contact_force_plant import ContactForcePlant
+from fluxbore.design.dynamics.contact_force_plant import ContactForcePlant, scaled
 from fluxbore.design.dynamics.disturbance import Motion, followed
 from fluxbore.design.dynamics.lag import held, lagged
 from fluxbore.design.friction import seal_friction
@@ -104,11 +104,14 @@ def run(
 ) -> Record:
     """One run of a condition at a target force (N).
 
-    random : of the encoder's phase and the load cell's noise. still : `air` at the unchanging target pressure, where
-    it is known already; P-P has its own.
+    random : of the encoder's phase, the load cell's noise and the run's own friction. still : `air` at the unchanging
+    target pressure, where it is known already; P-P has its own, and so has every run where friction scatters.
     """
     read, base = driven.read, plant.target_pressure(target)
     phase, noise = random.random(), plant.noise * random.standard_normal(len(read.time))
+    if plant.friction_scatter > 0:
+        share = max(0.0, 1.0 + plant.friction_scatter * random.standard_normal())
+        plant, still = replace(plant, seal=scaled(plant.seal, share)), None
     estimate = plant.estimate(read.position, phase)
     compensation = seal_friction(plant.law, plant.seal.area, base, estimate)
     if condition == BY_PRESSURE:

@@ -88,6 +88,14 @@ def test_p_is_the_share_of_signs_that_are_as_uneven(sizes, data):
     assert pair.p == pytest.approx(np.mean(np.array(cases) <= pair.statistic), abs=1e-12)
 
 
+def test_cells_that_are_equal_drop_out():
+    """Four that differ, all the same way, are as many signs; no warning of a small sample gets out."""
+    values = np.array([0.0, 0.0, 0.0, 1.0, 2.0, 3.5, 5.0])
+    (pair,) = compare({"a": values, "b": np.zeros(7)})
+    assert (pair.statistic, pair.lower) == (0.0, 0)
+    assert pair.p == pytest.approx(2 / 2**4)
+
+
 def test_three_pairs_are_corrected_by_three_and_stop_at_one():
     rng = np.random.default_rng(3)
     a = rng.normal(size=12)

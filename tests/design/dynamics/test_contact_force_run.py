@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 from mcfc_cases import plant, straight_map
 
+from fluxbore.design.contact_force_keys import CONTACT_FORCE_KEYS
 from fluxbore.design.dynamics.chamber import ATMOSPHERE
 from fluxbore.design.dynamics.contact_force_run import CONDITIONS, air, drive, run
 from fluxbore.design.dynamics.disturbance import followed
+from fluxbore.design.errors import SpecError
 from fluxbore.design.friction import seal_friction, sliding_level
 from fluxbore.design.statistics import root_mean_square
 
@@ -140,3 +142,43 @@ def test_a_still_chamber_may_be_handed_in():
         first = run(made, driven, condition, 40.0, np.random.default_rng(5))
         again = run(made, driven, condition, 40.0, np.random.default_rng(5), still)
         assert np.array_equal(first.force, again.force)
+
+
+def test_friction_scatters_from_run_to_run():
+    """With its standard deviation, and by a draw behind the others, so that the noise stays as it was."""
+    made = plant(friction_scatter=0.05, time_step=1e-3)
+    driven = drive(made, FREQUENCY)
+    sure = plant(time_step=1e-3)
+    found = []
+    for seed in range(60):
+        record = run(made, driven, "P-N", 40.0, np.random.default_rng(seed))
+        found.append(root_mean_square(record.friction))
+    mean = root_mean_square(one(sure, "P-N").friction)
+    assert np.mean(found) / mean == pytest.approx(1.0, abs=3 * 0.05 / 60**0.5)
+    assert np.std(found) / mean == pytest.approx(0.05, rel=0.3)
+    noise = [one(made, "P-N").force + one(made, "P-N").friction, one(sure, "P-N").force + one(sure, "P-N").friction]
+    assert noise[0] == pytest.approx(noise[1], abs=1e-9)
+
+
+NUMBERS = [key for key in CONTACT_FORCE_KEYS if key.kind != "word"]
+
+
+@pytest.mark.parametrize("limit", ["least", "most"])
+@pytest.mark.parametrize("key", NUMBERS, ids=lambda key: key.leaf)
+def test_every_key_at_its_limits_gives_numbers_or_a_sentence(key, limit):
+    """No overflow, no division by nothing."""
+    least = key.minimum if key.minimum is not None else 1e-300 if key.above is not None else -1.0
+    value = least if limit == "least" else key.maximum if key.maximum is not None else 1.0
+    changes = {"time_step": 1e-3, "control_period": 1e-3, key.leaf: value}
+    if key.leaf == "control_period" and limit == "least":
+        changes["time_step"] = 1e-5
+    try:
+        made = plant(**changes)
+    except SpecError as error:
+        if key.name in str(error):
+            return
+        raise
+    for condition in CONDITIONS:
+        record = one(made, condition)
+        for name in record.__slots__:
+            assert np.all(np.isfinite(getattr(record, name))), name
