@@ -129,6 +129,8 @@ DIMENSIONS: dict[str, Dimension] = {
             "ml/min",
             {"ml/min": Unit(1e-6 / 60.0), "l/min": Unit(1e-3 / 60.0), "m^3/s": Unit(1.0)},
         ),
+        Dimension("distance", "m", "km", {"km": Unit(1e3), "m": Unit(1.0)}),
+        Dimension("wear rate", "m/m", "um/km", {"um/km": Unit(1e-9), "mm/km": Unit(1e-6), "m/m": Unit(1.0)}),
         Dimension("specific wear", "m^2/N", "mm^3/(N m)", {"mm^3/(N m)": Unit(1e-9), "m^2/N": Unit(1.0)}),
     )
 }

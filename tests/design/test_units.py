@@ -52,6 +52,8 @@ INDEPENDENT = {
     "force density": {"kN/m^3": 1e3, "N/m^3": 1.0},
     "force constant density": {"kN/(A m^3)": 1e3, "N/(A m^3)": 1.0},
     "volume flow": {"ml/min": 1.6666666666666667e-8, "l/min": 1.6666666666666667e-5, "m^3/s": 1.0},
+    "distance": {"km": 1e3, "m": 1.0},
+    "wear rate": {"um/km": 1e-9, "mm/km": 1e-6, "m/m": 1.0},
     "specific wear": {"mm^3/(N m)": 1e-9, "m^2/N": 1.0},
 }
 """SI value of one unit, for every dimension without an offset."""
