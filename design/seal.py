@@ -35,3 +35,14 @@ def band_area(bore: float, length: float) -> float:
 def contact_area(actuator: HybridActuator) -> float:
     """s, of the fin on the pressurised side with the bore (m^2): equation (5) at the length of (4)."""
     return band_area(actuator.cylinder.inner_diameter, deformed_length(actuator))
+
+
+def interference(actuator: HybridActuator) -> float:
+    """(D_f - D_c')/2 (m): radial, as drawn."""
+    return (actuator.piston.fin_outer_diameter - actuator.cylinder.inner_diameter) / 2
+
+
+def angle(actuator: HybridActuator) -> float:
+    """theta (rad), of the fin's cone to its axis."""
+    fin = actuator.piston
+    return math.atan2((fin.fin_outer_diameter - fin.fin_inner_diameter) / 2, fin.fin_length)
