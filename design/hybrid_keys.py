@@ -5,7 +5,7 @@ from __future__ import annotations
 from fluxbore.design.contact_force_keys import CONTACT_FORCE_KEYS
 from fluxbore.design.keys import Alternatives, Key
 from fluxbore.design.materials import Conductor, Material, PermanentMagnet
-from fluxbore.design.seal_keys import SEAL_KEYS
+from fluxbore.design.seal_keys import FIN_KEYS, SEAL_KEYS
 
 LARGEST_LENGTH = 10.0
 """m; beyond it a length is a slip of the unit, not an actuator."""
@@ -28,6 +28,14 @@ def _material(name: str, doc: str) -> Key:
 
 HYBRID_KEYS: tuple[Key, ...] = (
     Key("actuator.name", "name of the design; STEP files and report carry it", kind="word", default="hybrid actuator"),
+    Key(
+        "actuator.reference_volume",
+        "volume on which the thrust densities are based; without it that of the back yoke's envelope",
+        dimension="volume",
+        above=0.0,
+        maximum=1e3,
+        optional=True,
+    ),
     _length("back_yoke.outer_diameter", "D", "back yoke outer diameter"),
     _length("back_yoke.inner_diameter", "D_i", "back yoke inner diameter"),
     _length("back_yoke.thickness", "(D - D_i)/2", "back yoke thickness"),
@@ -68,6 +76,13 @@ HYBRID_KEYS: tuple[Key, ...] = (
     _material("winding.material", "conductor of the winding"),
     _length("cylinder.outer_diameter", "D_c", "air cylinder outer diameter; the winding sits on it"),
     _length("cylinder.inner_diameter", "D_c'", "air cylinder bore as drawn: for the field and the CAD"),
+    Key(
+        "actuator.cylinder.bore_tolerance",
+        "total width of the tolerance field of inner_diameter, which lies in its middle; 0.027 mm is H8",
+        minimum=0.0,
+        maximum=1e-2,
+        default=0.027e-3,
+    ),
     _length("cylinder.catalogue_bore", "", "nominal bore of the catalogue cylinder: for the pneumatic forces"),
     _length("cylinder.length", "", "length of the cylinder tube"),
     _material("cylinder.material", "material of the cylinder tube"),
@@ -122,6 +137,7 @@ HYBRID_KEYS: tuple[Key, ...] = (
     _length("piston.fin_length", "l", "seal fin axial length"),
     _length("piston.fin_thickness", "", "seal fin wall thickness"),
     _material("piston.material", "material of piston and seal fin"),
+    *FIN_KEYS,
     *SEAL_KEYS,
     _length("end_caps.flange_diameter", "", "outer diameter of the end caps"),
     _length("end_caps.flange_length", "", "axial length of an end cap outside the tube"),
@@ -130,9 +146,9 @@ HYBRID_KEYS: tuple[Key, ...] = (
     _material("end_caps.material", "material of the end caps"),
     Key(
         "operating_point.pressure",
-        "supply pressure of the pneumatic forces",
+        "supply pressure of the pneumatic forces; the lips seal pressure, and a vacuum would lift them",
         dimension="pressure",
-        minimum=-101_325.0,
+        minimum=0.0,
         maximum=1e9,
         default=0.6e6,
     ),
@@ -209,6 +225,22 @@ HYBRID_KEYS: tuple[Key, ...] = (
         default=293.15,
     ),
     Key(
+        "operating_point.coldest_temperature",
+        "at which the fin still seals",
+        dimension="temperature",
+        above=200.0,
+        maximum=1000.0,
+        default=283.15,
+    ),
+    Key(
+        "operating_point.hottest_temperature",
+        "of fin and bore",
+        dimension="temperature",
+        above=200.0,
+        maximum=1000.0,
+        default=313.15,
+    ),
+    Key(
         "operating_point.first_position",
         "cap-side end of the window of positions over which figures are averaged",
         symbol="z",
@@ -278,9 +310,12 @@ HYBRID_MATERIALS: dict[str, type[Material]] = {
     "actuator.mover.ring_material": Material,
     "actuator.shaft.material": Material,
     "actuator.piston.material": Material,
+    "actuator.piston.fin_material": Material,
     "actuator.end_caps.material": Material,
 }
 """Which keys name materials, and the kind of material that each needs."""
 
-HYBRID_NON_MAGNETIC = frozenset({"actuator.piston.material", "actuator.end_caps.material"})
+HYBRID_NON_MAGNETIC = frozenset(
+    {"actuator.piston.material", "actuator.piston.fin_material", "actuator.end_caps.material"}
+)
 """Parts that the field model takes for air."""

@@ -75,6 +75,8 @@ def resolve(given: Values) -> dict[str, Value]:
     else:
         values[winding + "turns_density"] = number(winding + "turns") / room if room > 0 else math.inf
     values.setdefault(winding + "insulated_diameter", ENAMELLED * number(winding + "wire_diameter"))
+    if "actuator.piston.material" in values:
+        values.setdefault("actuator.piston.fin_material", values["actuator.piston.material"])
     values.setdefault("operating_point.peak_current", number("operating_point.current"))
     return values
 
@@ -143,6 +145,7 @@ def _check_operating_point(values: Values) -> None:
     for small, large, dimension in (
         ("operating_point.current", "operating_point.peak_current", "current"),
         ("operating_point.ambient_temperature", "operating_point.winding_temperature_limit", "temperature"),
+        ("operating_point.coldest_temperature", "operating_point.hottest_temperature", "temperature"),
         ("actuator.winding.wire_diameter", "actuator.winding.insulated_diameter", "length"),
     ):
         least, value = float(values[small]), float(values[large])

@@ -17,6 +17,7 @@ class Material:
     """What all materials share. ``None`` stands for a datum that is not known, never for zero.
 
     density : kg/m^3.   young_modulus, yield_stress : Pa.   poisson_ratio : plain number.
+    thermal_expansion : 1/K, of a length, around 20 degC.
     thermal_conductivity : W/(m K).   resistivity : ohm m at 20 degC; None of an insulator too.
     curve : the B-H curve of a soft iron, None of all others.
     """
@@ -28,6 +29,7 @@ class Material:
     poisson_ratio: float | None = None
     yield_stress: float | None = None
     thermal_conductivity: float | None = None
+    thermal_expansion: float | None = None
     resistivity: float | None = None
     curve: BHCurve | None = None
 

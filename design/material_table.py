@@ -21,6 +21,7 @@ _SHARED = (
     Key("poisson_ratio", "Poisson's ratio.", kind="number", above=-1.0, maximum=0.5, optional=True),
     Key("yield_stress", "Yield stress.", dimension="stress", above=0.0, optional=True),
     Key("thermal_conductivity", "At 20 degC.", dimension="thermal conductivity", above=0.0, optional=True),
+    Key("thermal_expansion", "Of a length, at 20 degC.", dimension="temperature coefficient", optional=True),
 )
 
 _OWN: dict[str, tuple[Key, ...]] = {

@@ -11,13 +11,14 @@ from dataclasses import dataclass, field, fields
 
 from fluxbore.design.units import DIMENSIONS, format_quantity
 
-FORCE, FIELD, WINDING, DRIVE, HEAT, PRESSURE, SIZE = GROUPS = (
+FORCE, FIELD, WINDING, DRIVE, HEAT, PRESSURE, SEAL, SIZE = GROUPS = (
     "Force",
     "Magnetic field",
     "Winding",
     "Drive",
     "Losses and heat",
     "Air cylinder and rod",
+    "Seal",
     "Size and mass",
 )
 """Headings under which tables for people put the figures, in this order."""
@@ -49,6 +50,16 @@ class Performance:
         "force", FORCE, "gauge pressure times the catalogue bore's area", signed=True
     )
     pneumatic_force_retract: float | None = _figure("force", FORCE, "the same less the shaft's area", signed=True)
+    thrust_density: float | None = _figure(
+        "force density",
+        FORCE,
+        "pneumatic force, advancing, and force constant times the current, over the reference volume or, without one, "
+        "that of the back yoke's envelope",
+        signed=True,
+    )
+    force_constant_density: float | None = _figure(
+        "force constant density", FORCE, "force constant over the same volume"
+    )
     moving_mass: float | None = _figure("mass", SIZE, "shaft, magnets, rings and pistons")
     total_mass: float | None = _figure("mass", SIZE, "all parts")
     stray_field: float | None = _figure(
@@ -180,9 +191,58 @@ class Performance:
         "critical axial load of the rod's free length when extended, by Euler and, where stocky, by Johnson",
     )
     buckling_safety: float | None = _figure("count", PRESSURE, "buckling force over peak thrust")
+    # The piston's seal: two fins with their lips on the bore.
     seal_friction: float | None = _figure(
-        "force", PRESSURE, "kinetic friction of the piston's seals at pressure and speed; at rest that of breaking away"
+        "force", SEAL, "kinetic friction of the piston's seals at pressure and speed; at rest that of breaking away"
     )
+    seal_friction_variation: float | None = _figure(
+        "force", SEAL, "seal friction at the pressure less that without pressure, at the speed"
+    )
+    fin_deformed_length: float | None = _figure(
+        "length", SEAL, "axial length of the fin that the bore bends, by equation (4)"
+    )
+    fin_contact_area: float | None = _figure(
+        "area", SEAL, "of the fin on the pressurised side with the bore, by equation (5)"
+    )
+    fin_interference: float | None = _figure(
+        "length",
+        SEAL,
+        "radial, of fin and bore: the least that tolerances and temperatures leave; below zero the fin does not touch",
+        signed=True,
+    )
+    largest_interference: float | None = _figure(
+        "length", SEAL, "radial, of fin and bore: the most that tolerances and temperatures make of it", signed=True
+    )
+    fin_angle: float | None = _figure("angle", SEAL, "of the fin's cone to its axis")
+    fin_wall: float | None = _figure("length", SEAL, "wall of the fin")
+    lip_contact_force: float | None = _figure(
+        "force", SEAL, "radial force of one lip on the bore at the pressure, as drawn", signed=True
+    )
+    lip_contact_pressure: float | None = _figure(
+        "stress", SEAL, "lip contact force over the fin's contact area", signed=True
+    )
+    sealing_margin: float | None = _figure(
+        "count",
+        SEAL,
+        "mean contact pressure at the least interference over the chamber's pressure; the lip seals above one",
+        signed=True,
+    )
+    lip_stress: float | None = _figure(
+        "stress",
+        SEAL,
+        "largest equivalent (von Mises) stress in the lip between the least and the largest interference, without and "
+        "under pressure",
+    )
+    lip_safety: float | None = _figure("count", SEAL, "yield stress of the lip over lip stress")
+    air_leakage: float | None = _figure(
+        "volume flow",
+        SEAL,
+        "of one dry lip at the pressure and the least interference, as air of the atmosphere; grease holds it back",
+    )
+    seal_wear: float | None = _figure(
+        "wear rate", SEAL, "depth that the lip loses per distance at the lip contact pressure"
+    )
+    seal_life: float | None = _figure("distance", SEAL, "slid until the least interference is worn off", signed=True)
     # What a workshop makes.
     fill_factor: float | None = _figure("fraction", WINDING, "share of the winding's window that is copper")
     winding_layers: float | None = _figure(

@@ -1,4 +1,4 @@
-"""The keys of a piston's seal: the friction law of Nakata and Noda (2023), Table IV."""
+"""The keys of a piston's seal: the friction law of Nakata and Noda (2023), Table IV, and what makes its fin."""
 
 from __future__ import annotations
 
@@ -25,12 +25,21 @@ SEAL_KEYS: tuple[Key, ...] = (
     ),
     Key(
         "actuator.seal.contact_force",
-        "contact force of mover and stator without pressure",
+        "measured contact force of mover and stator without pressure; without it that of the two lips, which follows "
+        "the fin's shape, and guide_force",
         dimension="force",
         symbol="F_0",
         minimum=0.0,
         maximum=1e6,
-        default=20.5,
+        optional=True,
+    ),
+    Key(
+        "actuator.seal.guide_force",
+        "contact force of mover and stator elsewhere than at the lips; not beside a measured contact_force",
+        dimension="force",
+        minimum=0.0,
+        maximum=1e6,
+        default=0.0,
     ),
     Key(
         "actuator.seal.stribeck_speed",
@@ -49,5 +58,52 @@ SEAL_KEYS: tuple[Key, ...] = (
         minimum=0.0,
         maximum=1e6,
         default=0.0,
+    ),
+    Key(
+        "actuator.seal.roughness",
+        "rms roughness of bore and lip together, for the air leakage",
+        above=0.0,
+        maximum=1e-4,
+        default=0.4e-6,
+    ),
+    Key(
+        "actuator.seal.roughness_wavelength",
+        "longest wavelength of that roughness",
+        above=0.0,
+        maximum=1e-2,
+        default=0.1e-3,
+    ),
+    Key(
+        "actuator.seal.specific_wear",
+        "volume that the lip loses per force and distance",
+        dimension="specific wear",
+        above=0.0,
+        maximum=1e-9,
+        default=1e-16,
+    ),
+)
+
+FIN_KEYS: tuple[Key, ...] = (
+    Key(
+        "actuator.piston.fin_tolerance",
+        "total width of the tolerance field of fin_outer_diameter, which lies in its middle",
+        minimum=0.0,
+        maximum=1e-2,
+        default=0.043e-3,
+    ),
+    Key(
+        "actuator.piston.fin_material",
+        "material of the seal fin's lip: its stiffness, strength and expansion; without it the piston's",
+        kind="word",
+        optional=True,
+    ),
+    Key(
+        "actuator.piston.fin_modulus",
+        "Young's modulus of the lip; without it its material's",
+        dimension="stress",
+        symbol="E",
+        above=0.0,
+        maximum=1e12,
+        optional=True,
     ),
 )

@@ -11,14 +11,13 @@ from dataclasses import replace
 from fluxbore.design import (
     column,
     drive,
-    friction,
     inductance,
     losses,
     manufacture,
     pneumatics,
     pressure_vessel,
-    seal,
     thermal,
+    thrust_density,
     winding,
 )
 from fluxbore.design.hybrid import HybridActuator
@@ -29,6 +28,7 @@ from fluxbore.design.spec import Spec
 from fluxbore.design.units import format_quantity
 from fluxbore.geometry.hybrid_parts import assembly
 from fluxbore.geometry.mass import envelope, part_masses, total
+from fluxbore.optimize import hybrid_seal
 from fluxbore.optimize.hybrid_gaps import gaps
 
 NOTABLE_FRACTION = 0.01
@@ -74,9 +74,6 @@ def common_figures(spec: Spec, actuator: HybridActuator) -> Performance:
         buckling_force=column.critical_force(
             actuator, _material(spec, "actuator.shaft.material"), spec.word("actuator.shaft.ends")
         ),
-        seal_friction=friction.kinetic_friction(
-            _seal(spec), seal.contact_area(actuator), pressure, spec.number("operating_point.speed")
-        ),
         fill_factor=winding.copper_fill(actuator),
         winding_layers=manufacture.winding_layers(actuator, wire),
         winding_room=manufacture.winding_room(actuator, wire),
@@ -85,6 +82,7 @@ def common_figures(spec: Spec, actuator: HybridActuator) -> Performance:
         magnet_wall=(actuator.mover.outer_diameter - actuator.shaft.outer_diameter) / 2,
         outer_diameter=outer_diameter,
         length=length,
+        **hybrid_seal.figures(spec, actuator),
     )
 
 
@@ -99,7 +97,7 @@ def derived(spec: Spec, performance: Performance) -> Performance:
     """
     if performance.force_constant is None:
         return performance
-    return _loaded(spec, _heated(spec, _driven(spec, performance)))
+    return _dense(spec, _loaded(spec, _heated(spec, _driven(spec, performance))))
 
 
 def _driven(spec: Spec, performance: Performance) -> Performance:
@@ -193,6 +191,21 @@ def _loaded(spec: Spec, performance: Performance) -> Performance:
     )
 
 
+def _dense(spec: Spec, performance: Performance) -> Performance:
+    """With the forces over the actuator's volume."""
+    constant, pneumatic = performance.force_constant, performance.pneumatic_force_advance
+    assert constant is not None
+    assert pneumatic is not None
+    key = "actuator.reference_volume"
+    volume = spec.number(key) if key in spec.values else thrust_density.envelope(spec.actuator)
+    current = spec.number("operating_point.current")
+    return replace(
+        performance,
+        thrust_density=thrust_density.thrust_density(pneumatic, constant, current, volume),
+        force_constant_density=thrust_density.force_constant_density(constant, volume),
+    )
+
+
 def warnings(spec: Spec, performance: Performance) -> tuple[str, ...]:
     """What sound figures do not say by themselves: magnets beyond their temperature or their coercivity, eddy currents
     beyond their formula, figures that the study asks for and the data do not allow."""
@@ -212,7 +225,13 @@ def warnings(spec: Spec, performance: Performance) -> tuple[str, ...]:
             f"At this temperature {fraction:.1%} of the magnets' volume is beyond its intrinsic coercivity at no "
             "current; the figures take it as still magnetised."
         )
-    return (*found, *_runaway(performance), *_thick_walls(spec, actuator), *gaps(spec, performance))
+    return (
+        *found,
+        *_runaway(performance),
+        *_thick_walls(spec, actuator),
+        *hybrid_seal.warnings(spec),
+        *gaps(spec, performance),
+    )
 
 
 def _runaway(performance: Performance) -> list[str]:
@@ -244,17 +263,3 @@ def _material(spec: Spec, key: str) -> Material:
 
 def _conductor(spec: Spec, actuator: HybridActuator) -> Conductor:
     return lookup(actuator.winding.material, "actuator.winding.material", spec.materials, Conductor)
-
-
-def _seal(spec: Spec) -> friction.SealFriction:
-    values = [
-        spec.number(f"actuator.seal.{name}")
-        for name in (
-            "static_coefficient",
-            "coulomb_coefficient",
-            "contact_force",
-            "stribeck_speed",
-            "viscous_coefficient",
-        )
-    ]
-    return friction.SealFriction(*values)

@@ -15,6 +15,9 @@ _DATA = {
     "shaft_safety": ("actuator.shaft.material", ("yield_stress",)),
     "buckling_force": ("actuator.shaft.material", ("young_modulus",)),
     "buckling_safety": ("actuator.shaft.material", ("young_modulus",)),
+    "lip_contact_force": ("actuator.piston.fin_material", ("young_modulus", "poisson_ratio")),
+    "lip_contact_pressure": ("actuator.piston.fin_material", ("young_modulus", "poisson_ratio")),
+    "seal_wear": ("actuator.piston.fin_material", ("young_modulus", "poisson_ratio")),
 }
 """Figure -> the key of the material that it needs, and what of it."""
 

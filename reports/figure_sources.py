@@ -27,6 +27,15 @@ class Source:
 _NETWORK = "Nakata and Noda 2023"
 _LAME = "Lamé; Timoshenko and Goodier, Theory of Elasticity § 28"
 _SEAL = tuple(f"actuator.seal.{name}" for name in ("static_coefficient", "coulomb_coefficient"))
+_LIP = ("actuator.piston.fin_thickness", "actuator.piston.fin_material", "actuator.piston.fin_modulus")
+_FIT = (
+    "actuator.cylinder.bore_tolerance",
+    "actuator.piston.fin_tolerance",
+    "operating_point.coldest_temperature",
+    "operating_point.hottest_temperature",
+)
+_ROUGH = ("actuator.seal.roughness", "actuator.seal.roughness_wavelength")
+_SHELL = "after Hetényi 1946; Timoshenko and Woinowsky-Krieger 1959, ch. 15"
 _HEAT = ("actuator.back_yoke.emissivity", "actuator.winding.insulation_conductivity")
 _COOLING = "Mellor et al. 1991; Hashin and Shtrikman 1962; Churchill and Chu 1975"
 _IRON = "coefficient of hysteresis, from handbooks"
@@ -67,6 +76,25 @@ SOURCES: dict[str, Source] = {
     ),
     "buckling_safety": Source("buckling force over peak thrust", "Euler; Johnson; Shigley", ("actuator.shaft.ends",)),
     "seal_friction": Source("equation (6) with (4) and (5)", f"{_NETWORK}, Table IV", _SEAL),
+    "seal_friction_variation": Source("equation (6) less itself without pressure", f"{_NETWORK}, Table IV", _SEAL),
+    "fin_deformed_length": Source("equation (4)", _NETWORK),
+    "fin_contact_area": Source("equation (5)", _NETWORK),
+    "fin_interference": Source("(D_f − D_c')/2 at the worst of tolerances and temperatures", "", _FIT),
+    "largest_interference": Source("(D_f − D_c')/2 at the other end of both", "", _FIT),
+    "lip_contact_force": Source("clamped cone on the elastic foundation of its hoops", _SHELL, _LIP),
+    "lip_contact_pressure": Source("lip contact force over equation (5)'s area", _SHELL, _LIP),
+    "sealing_margin": Source("contact pressure at the least interference over p", _SHELL, (*_LIP, *_FIT)),
+    "lip_stress": Source("von Mises, at the worst of interference and pressure", _SHELL, (*_LIP, *_FIT)),
+    "lip_safety": Source("yield stress over lip stress", _SHELL, (*_LIP, *_FIT)),
+    "air_leakage": Source(
+        "π D_c' u³ (p₁² − p_a²)/(24 μ p_a Δl), u = u₀ ln(1 + β E*/p_c)",
+        "after Persson 2007; Akarapu et al. 2011",
+        (*_ROUGH, *_LIP, *_FIT),
+    ),
+    "seal_wear": Source("k p_c", "Archard 1953", ("actuator.seal.specific_wear", *_LIP)),
+    "seal_life": Source("least interference over wear", "Archard 1953", ("actuator.seal.specific_wear", *_LIP, *_FIT)),
+    "thrust_density": Source("(p A + K I)/V", "", ("actuator.reference_volume",)),
+    "force_constant_density": Source("K/V", "", ("actuator.reference_volume",)),
     "fill_factor": Source("copper over the window's section"),
     "winding_layers": Source("turns × wire over the coil's width", "", ("actuator.winding.insulated_diameter",)),
     "winding_room": Source("height less the layers", "", ("actuator.winding.insulated_diameter",)),

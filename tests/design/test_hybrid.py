@@ -66,6 +66,7 @@ def test_identities_hold_whichever_keys_are_given(d_i, thickness, front, back, p
     }
     following = {winding + "insulated_diameter": 0.44e-3, "operating_point.peak_current": 2.0}
     fixed = {
+        "actuator.piston.material": "POM",
         winding + "wire_diameter": 0.4e-3,
         "operating_point.current": 2.0,
         winding + "sets_per_phase": sets,
@@ -77,6 +78,7 @@ def test_identities_hold_whichever_keys_are_given(d_i, thickness, front, back, p
         chosen = data.draw(st.permutations(group.keys))[: group.count]
         given_keys |= {key: whole[key] for key in chosen}
     resolved = resolve(given_keys)
+    assert resolved.pop("actuator.piston.fin_material") == "POM"
     assert set(resolved) == set(whole) | set(fixed) | set(following)
     scale = whole[yoke + "outer_diameter"] + whole[yoke + "length"]
     for key, value in {**whole, **following}.items():

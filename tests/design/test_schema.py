@@ -211,7 +211,7 @@ STUDIES = {
     "study.sweeps": [
         {"name": "a", "axes": [{"key": "actuator.winding.sets_per_phase", "from": 6, "to": 8, "step": 1}]},
         {"name": "b", "axes": [{"key": "actuator.mover.magnet_permeability", "values": [1, 1.05]}]},
-        {"name": "c", "axes": [{"key": "operating_point.pressure", "values": ["1 bar absolute"]}]},
+        {"name": "c", "axes": [{"key": "operating_point.pressure", "values": ["2 bar absolute"]}]},
     ],
 }
 

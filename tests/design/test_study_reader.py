@@ -85,7 +85,7 @@ def test_a_step_of_temperature_or_pressure_is_a_difference():
     for scale in ("gauge", "absolute"):
         air = study(
             axes(
-                f'{{ key = "operating_point.pressure", from = "0.1 MPa {scale}", to = "0.3 MPa {scale}", step = "0.1 MPa {scale}" }}'
+                f'{{ key = "operating_point.pressure", from = "0.2 MPa {scale}", to = "0.4 MPa {scale}", step = "0.1 MPa {scale}" }}'
             )
         )
         assert air.sweeps[0].axes[0].values[2] - air.sweeps[0].axes[0].values[0] == pytest.approx(2e5)

@@ -72,11 +72,11 @@ def test_the_numbers_of_the_paper() -> None:
     assert found.bore_clearance == pytest.approx(0.1e-3, rel=0.01)
 
 
-def test_pressure_opens_the_clearance_and_vacuum_closes_it() -> None:
+def test_pressure_opens_the_clearance() -> None:
     clearance = [figures({"operating_point.pressure": text}).bore_clearance for text in
-                 ("0.05 MPa absolute", "0 Pa gauge", "0.6 MPa gauge")]  # fmt: skip
-    assert clearance == sorted(clearance, key=lambda value: value or 0.0)
-    assert clearance[1] == pytest.approx(0.1e-3)
+                 ("0 Pa gauge", "0.6 MPa gauge", "6 MPa gauge")]  # fmt: skip
+    assert clearance == sorted(set(clearance), key=lambda value: value or 0.0)
+    assert clearance[0] == pytest.approx(0.1e-3)
 
 
 def test_the_losses_balance_the_drag() -> None:
@@ -220,7 +220,7 @@ def test_an_operating_point_that_contradicts_itself_is_refused(changes: dict[str
 
 
 RANGES = {
-    "operating_point.pressure": st.floats(-101_325, 1e9),
+    "operating_point.pressure": st.floats(0, 1e9),
     "operating_point.current": st.floats(0, 1e3),
     "operating_point.peak_current": st.floats(1e3, 1e6),
     "operating_point.speed": st.floats(0, 1e3),
@@ -279,8 +279,8 @@ def test_the_inductance_is_the_fields() -> None:
 
 
 def test_a_pull_stresses_the_rod_too() -> None:
-    """Catches a safety that is missing, or negative, where a vacuum outweighs the force."""
-    found = figures({"operating_point.pressure": "-0.09 MPa gauge", "operating_point.peak_current": "1 A"})
+    """Catches a safety that is missing, or negative, where the cogging outweighs the force."""
+    found = figures({"operating_point.pressure": "0 MPa gauge", "operating_point.peak_current": "1 A"}, peak_force=-2.0)
     assert found.shaft_stress is not None
     assert found.shaft_safety is not None
     assert found.shaft_stress < 0 < found.shaft_safety
