@@ -87,11 +87,12 @@ class ContactForcePlant:
         share, period, stroke = number("friction_share"), number("control_period"), number("stroke")
         mass = _own("benchmark.mcfc.moving_mass", values, moving_mass)
         back, position = passed_positions(actuator, values)
-        least = OVERSHOOT * stroke * area
-        if number("chamber_volume") < least:
+        least, volume = OVERSHOOT * stroke * area, number("chamber_volume")
+        if volume < least:
             raise SpecError(
                 "benchmark.mcfc.chamber_volume must be at least what the piston sweeps over twice "
-                f"benchmark.mcfc.stroke, {format_quantity(least, 'volume', 4)}; got {format_quantity(number('chamber_volume'), 'volume', 4)}."
+                f"benchmark.mcfc.stroke, {format_quantity(least, 'volume', 4)}; "
+                f"got {format_quantity(volume, 'volume', 4)}."
             )
         given = values.get("benchmark.mcfc.force_constant")
         constant = force_map.within(back, position).mean_force_constant if given is None else float(given)
@@ -105,7 +106,7 @@ class ContactForcePlant:
             seal=scaled(
                 Bristle(law, contact_area(actuator), number("bristle_stiffness"), number("bristle_damping")), share
             ),
-            chamber=Chamber(number("chamber_volume"), area, number("gas_exponent"), number("valve_lag")),
+            chamber=Chamber(volume, area, number("gas_exponent"), number("valve_lag")),
             load=LoadActuator(number("load_frequency"), number("load_damping")),
             estimate=VelocityEstimate(number("encoder_resolution"), period, number("velocity_filter")),
             force_map=force_map,
