@@ -129,14 +129,20 @@ def network(
     )
 
 
-def heat_at(net: ThermalNetwork, winding: float, yoke_loss: float = 0.0, tube_loss: float = 0.0) -> Heat:
+def heat_at(
+    net: ThermalNetwork, winding: float, yoke_loss: float = 0.0, tube_loss: float = 0.0, near: Heat | None = None
+) -> Heat:
     """What a winding at this mean temperature (K) gives off while yoke and tube have losses of their own (W).
+
+    near : at another temperature, to begin from.
 
     Newton's iteration on the temperatures of the two surfaces, each of which gives off q = g T - c along its tangent.
     The heat of a surface grows faster than its temperature, so that tangents lead to the root from above.
     """
     rise = winding - net.ambient
     yoke = caps = tube = rise
+    if near is not None:
+        yoke, caps = near.yoke - net.ambient, near.caps - net.ambient
     given = 0.0
     for _ in range(ROUNDS):
         before = yoke, caps
@@ -174,8 +180,12 @@ def winding_temperature(
     to it, so that there is one root below and none beyond where the balance at `HOTTEST` is short of heat.
     """
 
+    near: Heat | None = None
+
     def surplus(temperature: float) -> float:
-        return heat_at(net, temperature, yoke_loss, tube_loss).winding_heat - loss(temperature)
+        nonlocal near
+        near = heat_at(net, temperature, yoke_loss, tube_loss, near)
+        return near.winding_heat - loss(temperature)
 
     found = _root(surplus, net.ambient, HOTTEST)
     if found is not None:

@@ -311,17 +311,20 @@ class Corrected:
         return self.nearest.solve(right)
 
     def _refined(self, right: Floats, tolerance: float) -> Floats | None:
-        """Iterative refinement of many right sides (n, k) at once; None where the neighbour is too far for it."""
+        """Iterative refinement of many right sides (n, k) at once; None where the neighbour is too far for it.
+
+        What corrects a first solution needs few digits of its own, so that single precision does.
+        """
         goal = tolerance * _lengths(right)
-        x = np.zeros(right.shape)
-        left, rest = np.arange(right.shape[1]), right
-        for _ in range(MOST_REFINEMENTS):
-            x[:, left] += self.nearest.solve(rest)
-            rest = right[:, left] - self._matrix @ x[:, left]
-            far = _lengths(rest) > goal[left]
-            left, rest = left[far], rest[:, far]
-            if not left.size:
+        x = self.nearest.solve(right)
+        correct = self.nearest.solve_roughly if isinstance(self.nearest, BandedCholesky) else self.nearest.solve
+        for sweep in range(1, MOST_REFINEMENTS + 1):
+            rest = right - self._matrix @ x
+            far = np.flatnonzero(_lengths(rest) > goal)
+            if not far.size:
                 return x
+            if sweep < MOST_REFINEMENTS:
+                x[:, far] += correct(rest[:, far])
         return None
 
 
@@ -372,6 +375,23 @@ class BandedCholesky:
         if status != 0:
             raise SingularMatrixError(f"LAPACK pbtrs refused argument {-status}")
         return np.asarray(solution)
+
+    @cached_property
+    def _single(self) -> tuple[Any, Any]:
+        """The factor in single precision, and its solver."""
+        from scipy.linalg import get_lapack_funcs
+
+        band = self._band.astype(np.float32)
+        return band, *get_lapack_funcs(("pbtrs",), (band,))
+
+    def solve_roughly(self, right: Floats) -> Floats:
+        """`solve` to some five digits, in two thirds of the time; right is (n, k)."""
+        band, solver = self._single
+        scale = np.abs(right).max(axis=0, initial=1e-300)  # within what single precision can hold
+        solution, status = solver(band, right / scale, lower=1)
+        if status != 0:
+            raise SingularMatrixError(f"LAPACK pbtrs refused argument {-status}")
+        return np.asarray(solution * scale)
 
 
 class SuperLU:

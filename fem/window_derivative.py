@@ -43,10 +43,10 @@ class Windows:
         """(p, 9, 6) by v at the elements' nodes: turns per area times v's change by the cell's inner and outer line,
         by the window's r from and to, by the lower and upper line, by the window's z from and to; and ∫ v per area."""
         clip, grid = cut.clip, self._grid
-        coils = [self._coils[k] for k in cut.coil]
-        area = np.array([coil.area for coil in coils])
-        weight = clip.weight * (np.array([coil.turns for coil in coils]) / area)[:, None]
-        (inner, outer), (low, high) = coils[0].r, np.array([coil.z for coil in coils]).T[..., None]
+        area = np.array([coil.area for coil in self._coils])[cut.coil]
+        weight = clip.weight * (np.array([coil.turns for coil in self._coils])[cut.coil] / area)[:, None]
+        (inner, outer), windows = self._coils[cut.coil[0]].r, np.array([coil.z for coil in self._coils])
+        low, high = windows[cut.coil].T[..., None]
         row, column = np.divmod(clip.element // 2, grid.r_lines.size - 1)
         s_lines, z_lines = grid.r_nodes[::2], grid.z_lines
         s = _share(clip.r**2 / 2, s_lines[column][:, None], s_lines[column + 1][:, None])

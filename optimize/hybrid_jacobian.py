@@ -51,11 +51,13 @@ class Jacobians:
             )
 
         unlike = _unlike(field)
-        by_position = [self._slope_by_position(state) for state in unlike]
+        sections = [self._at(state.section, state.position) for state in unlike]
+        here, others_here = [section(spec, 0.0) for section in sections], others(spec, 0.0)
+        by_position = [self._slope_by_position(state, own) for state, own in zip(unlike, here, strict=True)]
         columns = {}
         for key in keys:
-            found = [slope(spec, key, self._at(state.section, state.position)) for state in unlike]
-            other = slope(spec, key, others)
+            found = [slope(spec, key, section, own) for section, own in zip(sections, here, strict=True)]
+            other = slope(spec, key, others, others_here)
             if other is None or any(column is None for column in found):
                 continue
             # Where the mover's parts meet the stator's, the section has no derivative by the position.
@@ -67,8 +69,7 @@ class Jacobians:
         rest = stacked[-1] if stacked else np.zeros((count + 2 + 3 * peaks, 0))
         self.positions, self.pitch, self.coercivity = rest[:count], rest[count], rest[count + 1]
         self.currents = [rest[count + 2 + 3 * k : count + 5 + 3 * k] for k in range(peaks)]
-        sizes = [self._at(state.section, state.position)(spec, 0.0).size for state in unlike]
-        by_key = stacked[:-1] if stacked else [np.zeros((size, width)) for size in sizes]
+        by_key = stacked[:-1] if stacked else [np.zeros((own.size, width)) for own in here]
         self._states = []
         for index, state in enumerate(field.window):
             kind = next(k for k, other in enumerate(unlike) if alike(state.section, other.section))
@@ -98,20 +99,19 @@ class Jacobians:
 
         return vector
 
-    def _slope_by_position(self, here: TubularSolution) -> Floats | None:
-        """(numbers,) from one side where the other has another topology; None where both have."""
+    def _slope_by_position(self, state: TubularSolution, now: Floats) -> Floats | None:
+        """(numbers,), which are ``now``; from one side where the other has another topology; None where both have."""
 
         def at(step: float) -> Floats | None:
             try:
-                return self._at(here.section, here.position + step)(self._spec, 0.0)
+                return self._at(state.section, state.position + step)(self._spec, 0.0)
             except DesignError:
                 return None
 
         ahead, behind = at(POSITION_STEP), at(-POSITION_STEP)
         if ahead is not None and behind is not None:
             return (ahead - behind) / (2 * POSITION_STEP)
-        now = at(0.0)
-        if now is None or (ahead is None and behind is None):
+        if ahead is None and behind is None:
             return None
         return (ahead - now if ahead is not None else now - behind) / POSITION_STEP
 

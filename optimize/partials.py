@@ -55,8 +55,10 @@ def held(spec: Spec, keys: Sequence[str]) -> Spec:
     return replace(spec, given={**{key: spec.values[key] for key in keys}, **spec.given})
 
 
-def slope(spec: Spec, key: str, at: Callable[[Spec, float], Any]) -> Any | None:
+def slope(spec: Spec, key: str, at: Callable[[Spec, float], Any], here: Any | None = None) -> Any | None:
     """d at / d key (SI) of a function of a specification and of how far its key was moved; arrays or numbers.
+
+    here : the function of the specification itself, where that is known.
 
     One-sided where the design cannot be built on one side of its value; None where it cannot on either.
     """
@@ -66,13 +68,11 @@ def slope(spec: Spec, key: str, at: Callable[[Spec, float], Any]) -> Any | None:
     def found(step: float) -> Any | None:
         # The step that was taken, not the one that was meant: the sum is rounded.
         there = value + step
-        try:
-            return at(moved(spec, key, there), there - value)
-        except (FluxboreError, ArithmeticError):
-            return None
+        return _tried(at, moved(spec, key, there), there - value)
 
     step = STEP * length
-    after, here, before = found(step), found(0.0), found(-step)
+    after, before = found(step), found(-step)
+    here = found(0.0) if here is None else here
     if after is not None and before is not None:
         rise = (after - before) / (2 * step)
         return rise if here is None else _straightened(found, rise, (before, here, after), step)
@@ -81,6 +81,14 @@ def slope(spec: Spec, key: str, at: Callable[[Spec, float], Any]) -> Any | None:
     if here is None or near is None or far is None:
         return None
     return sign * (4 * near - far - 3 * here) / (2 * step)
+
+
+def _tried(at: Callable[[Spec, float], Any], spec: Spec, step: float) -> Any | None:
+    """None where there is no such design."""
+    try:
+        return at(spec, step)
+    except (FluxboreError, ArithmeticError):
+        return None
 
 
 def _straightened(found: Callable[[float], Any | None], rise: Any, three: tuple[Any, Any, Any], step: float) -> Any:
@@ -120,6 +128,7 @@ def closed_gradient(
     base = held(base, wanted)
     names = [name for name in FIGURES if name not in without]
     gradient: dict[str, dict[str, float]] = {name: {} for name in names}
+    here = None
     for key in wanted:
 
         def figures(changed: Spec, step: float, key: str = key) -> Any:
@@ -127,7 +136,9 @@ def closed_gradient(
             values = [getattr(performance, name) for name in names]
             return np.array([np.nan if value is None else value for value in values])
 
-        found = slope(base, key, figures)
+        if here is None:
+            here = _tried(figures, base, 0.0)
+        found = slope(base, key, figures, here)
         if found is None:
             continue
         for name, value in zip(names, found, strict=True):

@@ -124,6 +124,16 @@ def test_solve(
     assert np.array_equal(right, kept)
 
 
+@pytest.mark.parametrize("size", [1e-60, 1.0, 1e60])
+def test_solve_roughly(small: tuple[Pattern, np.ndarray, np.ndarray], size: float) -> None:
+    """Catches columns that single precision cannot hold, and one that is zero."""
+    pattern, matrices, full = small
+    right = np.random.default_rng(3).normal(size=(full.shape[0], 3)) * [size, 0.0, 1.0]
+    found = BandedCholesky(pattern, pattern.assemble(matrices)).solve_roughly(right)
+    exact = np.linalg.solve(full, right)
+    assert np.all(np.abs(found - exact).max(axis=0) <= 1e-4 * np.abs(exact).max(axis=0))
+
+
 @pytest.mark.parametrize("method", ["banded", "superlu"])
 def test_values_that_are_not_finite_are_refused(small: tuple[Pattern, np.ndarray, np.ndarray], method: str) -> None:
     """Catches a NaN that goes through LAPACK and comes out as a field."""
