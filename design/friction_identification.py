@@ -93,12 +93,7 @@ def friction_points(
     friction of sliding under pressure.
     """
     if "position" in measured and "run" in measured:
-        label = measured["run"]
-        runs = [
-            Run(*(measured[name][label == one] for name in ("position", "velocity", "force", "pressure")))
-            for one in np.unique(label)
-        ]
-        return window_friction(runs, measured.source, piston_area=piston_area, window=window)
+        return window_friction(_runs(measured), measured.source, piston_area=piston_area, window=window)
     v, P = measured["velocity"], measured["pressure"]
     for row in np.flatnonzero((np.abs(v) < SLOWEST) | (P < 0)):
         where = f"{measured.source}, line {measured.lines[row]}"
@@ -108,6 +103,15 @@ def friction_points(
             f"{where}: velocity must be {SLOWEST:g} m/s or more in size, for friction that slides; got {v[row]:g} m/s."
         )
     return FrictionPoints(v, P, measured["force"], measured.source)
+
+
+def _runs(measured: Measurements) -> list[Run]:
+    """The rows of each label, in their order, by rising label."""
+    label = measured["run"]
+    order = np.argsort(label, kind="stable")
+    edges = np.flatnonzero(np.diff(label[order])) + 1
+    signals = [np.split(measured[name][order], edges) for name in ("position", "velocity", "force", "pressure")]
+    return [Run(*parts) for parts in zip(*signals, strict=True)]
 
 
 def window_friction(
@@ -289,13 +293,24 @@ def _falls_with_speed(points: FrictionPoints) -> bool:
     return bool(fdtrc(2, freedom, (without - with_curve) / 2 / (with_curve / freedom)) < CHANCE)
 
 
+def _distinct(speeds: Floats, most: int) -> int:
+    """How many speeds there are, each beyond the last one counted by more than `DISTINCT` of itself; at most `most`."""
+    ordered, count = np.sort(speeds), 1
+    last = ordered[0]
+    while count < most:
+        beyond = np.searchsorted(ordered * (1 - DISTINCT), last, side="right")
+        if beyond == len(ordered):
+            break
+        last, count = ordered[beyond], count + 1
+    return count
+
+
 def _check_spread(points: FrictionPoints, parameters: Sequence[Parameter]) -> None:
     """Refuse too few speeds or pressures before the fit: scatter hides that they tell nothing."""
     by_name = {p.name: p for p in parameters}
-    speeds = np.unique(np.abs(points.velocity))
-    count = 1 + int(np.count_nonzero(np.diff(speeds) > DISTINCT * speeds[1:]))
     over_speed = [name for name in ("stribeck_speed", "viscous_coefficient", "static_coefficient") if name in by_name]
     needed = len(over_speed) + 1
+    count = _distinct(np.abs(points.velocity), needed)
     if count < needed:
         words = f"{count} speed" + ("s" if count > 1 else "")
         raise not_identifiable(

@@ -190,10 +190,10 @@ def _solve(
         inside / scale,
         jac="3-point" if jacobian is None else lambda u: jacobian(u * scale) * scale,
         bounds=(lower / scale, upper / scale),
-        xtol=1e-12,
-        ftol=1e-12,
-        gtol=1e-12,
-        max_nfev=200,
+        xtol=1e-10,
+        ftol=1e-10,
+        gtol=1e-10,
+        max_nfev=100,
     )
     words = {-1: "lower", 0: "", 1: "upper"}
     x = np.where(found.active_mask == -1, lower, np.where(found.active_mask == 1, upper, found.x * scale))

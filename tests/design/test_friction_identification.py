@@ -161,6 +161,12 @@ def test_what_is_not_identifiable_is_named(speeds: Floats, pressures: Floats, se
     assert str(caught.value).startswith(sentence)
 
 
+def test_speeds_that_differ_little_from_one_to_the_next_are_many() -> None:
+    """A sweep of speeds, each 1 % above the last: neighbours count as one, the ends do not."""
+    found = identify_friction(points(np.geomspace(6e-4, 8e-3, 260), PRESSURES[::3]), AREA)
+    assert found.parameters["stribeck_speed"].value == pytest.approx(0.00132, rel=0.05)
+
+
 def test_too_few_speeds_for_viscous_friction() -> None:
     with pytest.raises(IdentificationError, match=r"identify stribeck_speed: it has 3 speeds of the 4 needed"):
         identify_friction(points(SPEEDS[::5]), AREA, viscous=True)
