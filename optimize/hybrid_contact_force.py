@@ -77,10 +77,10 @@ def _designs(spec: Spec) -> Sequence[Mapping[str, Value]]:
 
 def _surroundings(spec: Spec, evaluations: Sequence[Evaluation]) -> Surroundings:
     from fluxbore.optimize.hybrid_force_map import force_map_of
+    from fluxbore.optimize.hybrid_seal import contact_force
 
     (around,) = evaluations
-    force = spec.values.get("actuator.seal.contact_force")
-    return Surroundings(force_map_of(around), around.performance.moving_mass, None if force is None else float(force))
+    return Surroundings(force_map_of(around), around.performance.moving_mass, contact_force(spec))
 
 
 def simulate_contact_force(spec: Spec, around: Surroundings, seed: int, traces: bool) -> Simulation:
