@@ -313,16 +313,21 @@ class Corrected:
     def _refined(self, right: Floats, tolerance: float) -> Floats | None:
         """Iterative refinement of many right sides (n, k) at once; None where the neighbour is too far for it.
 
-        What corrects a first solution needs few digits of its own, so that single precision does.
+        What corrects a first solution needs few digits of its own, so that single precision does, unless the matrix
+        is so ill-conditioned that it gains less than a digit.
         """
-        goal = tolerance * _lengths(right)
+        size = _lengths(right)
+        goal = tolerance * size
         x = self.nearest.solve(right)
         correct = self.nearest.solve_roughly if isinstance(self.nearest, BandedCholesky) else self.nearest.solve
         for sweep in range(1, MOST_REFINEMENTS + 1):
             rest = right - self._matrix @ x
-            far = np.flatnonzero(_lengths(rest) > goal)
+            before, size = size, _lengths(rest)
+            far = np.flatnonzero(size > goal)
             if not far.size:
                 return x
+            if np.any(size[far] > 0.1 * before[far]):
+                correct = self.nearest.solve
             if sweep < MOST_REFINEMENTS:
                 x[:, far] += correct(rest[:, far])
         return None
