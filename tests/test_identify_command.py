@@ -103,9 +103,8 @@ def test_the_lines_for_the_specification_can_be_pasted(capsys: pytest.CaptureFix
         section = line.partition("]")[0] + "]" if line.startswith("[") else section
         if not (section == "[actuator.seal]" and line.partition(" = ")[0] in names):
             old.append(line)
-    text = "\n".join(old)
-    assert "[actuator.seal]\n" in text.replace("[actuator.seal] ", "[actuator.seal]\n")
-    text = re.sub(r"^\[actuator\.seal\].*$", lambda _: found["toml"], text, count=1, flags=re.MULTILINE)
+    text, pasted = re.subn(r"^\[actuator\.seal\].*$", lambda _: found["toml"], "\n".join(old), flags=re.MULTILINE)
+    assert pasted == 1
     Path("mine.toml").write_text(text, encoding="utf-8")
     spec = fluxbore.load("mine.toml")
     for name in names:
