@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from fluxbore.design.dynamics.contact_force import FREQUENCIES
 from fluxbore.design.dynamics.contact_force_plant import ContactForcePlant
 from fluxbore.design.dynamics.contact_force_run import NO_COMPENSATION, drive, run
-from fluxbore.design.friction_identification import Run
+from fluxbore.design.friction_points import Run
 
 Floats = NDArray[np.float64]
 

@@ -20,7 +20,8 @@ from fluxbore.design.dynamics.contact_force_plant import ContactForcePlant
 from fluxbore.design.dynamics.force_map import ForceMap
 from fluxbore.design.dynamics.friction_run import PRESSURES, friction_runs
 from fluxbore.design.friction import SealFriction, seal_friction
-from fluxbore.design.friction_identification import FrictionPoints, identify_friction, window_friction
+from fluxbore.design.friction_identification import identify_friction
+from fluxbore.design.friction_points import FrictionPoints, window_friction
 from fluxbore.design.identification import Estimate, Identified
 
 TOP = Path(__file__).parent.parent.parent

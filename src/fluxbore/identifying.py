@@ -92,7 +92,7 @@ def identify(
 
 
 def _read_friction(path: Path | str) -> Measurements:
-    from fluxbore.design.friction_identification import COLUMNS, RECORD_COLUMNS
+    from fluxbore.design.friction_points import COLUMNS, RECORD_COLUMNS
     from fluxbore.design.measurements import read_measurements
 
     return read_measurements(path, COLUMNS, optional=RECORD_COLUMNS)
@@ -105,7 +105,8 @@ def _contact_area(spec: Spec) -> Mapping[str, tuple[float, str]]:
 
 
 def _fit_friction(measured: Measurements, spec: Spec, level: float, free: Sequence[str]) -> Identified:
-    from fluxbore.design.friction_identification import friction_points, identify_friction
+    from fluxbore.design.friction_identification import identify_friction
+    from fluxbore.design.friction_points import friction_points
     from fluxbore.design.pneumatics import piston_area
     from fluxbore.design.seal import contact_area
 

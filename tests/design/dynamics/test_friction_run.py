@@ -12,7 +12,8 @@ from fluxbore.design.dynamics.contact_force_plant import ContactForcePlant
 from fluxbore.design.dynamics.force_map import ForceMap
 from fluxbore.design.dynamics.friction_run import friction_runs
 from fluxbore.design.friction import seal_friction
-from fluxbore.design.friction_identification import identify_friction, window_friction
+from fluxbore.design.friction_identification import identify_friction
+from fluxbore.design.friction_points import window_friction
 from fluxbore.design.spec import load
 
 TOP = Path(__file__).parents[3]
