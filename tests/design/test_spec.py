@@ -32,7 +32,8 @@ def test_values_are_si_and_every_key_has_one(spec):
     assert spec.number("operating_point.pressure") == 600_000.0
     assert spec.number("operating_point.winding_temperature") == 293.15
     assert spec.word("actuator.name") == "iPEHLA"
-    assert {key.name for key in spec.kind.keys} == set(spec.values)
+    computed = {"benchmark.mcfc.moving_mass", "benchmark.mcfc.force_constant"}  # of the design where not given
+    assert {key.name for key in spec.kind.keys} - computed == set(spec.values)
     with pytest.raises(FrozenInstanceError):
         spec.given = {}
 
