@@ -6,25 +6,43 @@ from fluxbore.design.materials import Material, lookup
 from fluxbore.design.performance import FIGURES, Performance
 from fluxbore.design.spec import Spec
 
-_DATA = {
-    "cylinder_safety": ("actuator.cylinder.material", ("yield_stress",)),
-    "bore_dilation": ("actuator.cylinder.material", ("young_modulus", "poisson_ratio")),
-    "bore_clearance": ("actuator.cylinder.material", ("young_modulus", "poisson_ratio")),
-    "eddy_loss": ("actuator.cylinder.material", ("resistivity",)),
-    "iron_loss": ("actuator.back_yoke.material", ("hysteresis_coefficient", "resistivity")),
-    "shaft_safety": ("actuator.shaft.material", ("yield_stress",)),
-    "buckling_force": ("actuator.shaft.material", ("young_modulus",)),
-    "buckling_safety": ("actuator.shaft.material", ("young_modulus",)),
-    "lip_contact_force": ("actuator.piston.fin_material", ("young_modulus", "poisson_ratio")),
-    "lip_contact_pressure": ("actuator.piston.fin_material", ("young_modulus", "poisson_ratio")),
-    "seal_wear": ("actuator.piston.fin_material", ("young_modulus", "poisson_ratio")),
+_TUBE, _LIP = "actuator.cylinder.material", "actuator.piston.fin_material"
+
+_ELASTIC = (_LIP, ("young_modulus", "poisson_ratio"))
+_FIT = ((_LIP, ("thermal_expansion",)), (_TUBE, ("thermal_expansion",)))
+
+_DATA: dict[str, tuple[tuple[str, tuple[str, ...]], ...]] = {
+    "cylinder_safety": ((_TUBE, ("yield_stress",)),),
+    "bore_dilation": ((_TUBE, ("young_modulus", "poisson_ratio")),),
+    "bore_clearance": ((_TUBE, ("young_modulus", "poisson_ratio")),),
+    "eddy_loss": ((_TUBE, ("resistivity",)),),
+    "iron_loss": (("actuator.back_yoke.material", ("hysteresis_coefficient", "resistivity")),),
+    "shaft_safety": (("actuator.shaft.material", ("yield_stress",)),),
+    "buckling_force": (("actuator.shaft.material", ("young_modulus",)),),
+    "buckling_safety": (("actuator.shaft.material", ("young_modulus",)),),
+    "seal_friction": (_ELASTIC,),
+    "seal_friction_variation": (_ELASTIC,),
+    "fin_interference": _FIT,
+    "largest_interference": _FIT,
+    "lip_contact_force": (_ELASTIC,),
+    "lip_contact_pressure": (_ELASTIC,),
+    "seal_wear": (_ELASTIC,),
+    "sealing_margin": (_ELASTIC, *_FIT),
+    "lip_stress": (_ELASTIC, *_FIT),
+    "lip_safety": (_ELASTIC, (_LIP, ("yield_stress",)), *_FIT),
+    "air_leakage": (_ELASTIC, *_FIT),
+    "seal_life": (_ELASTIC, *_FIT),
 }
-"""Figure -> the key of the material that it needs, and what of it."""
+"""Figure -> the keys of the materials that it needs, and what of each."""
+
+_FRICTION = ("seal_friction", "seal_friction_variation")
 
 _OTHERWISE = {
     "cylinder_safety": "operating_point.pressure does not load the cylinder",
     "shaft_safety": "nothing loads the shaft at operating_point.pressure and operating_point.peak_current",
     "buckling_safety": "nothing pushes on the shaft at operating_point.pressure and operating_point.peak_current",
+    "sealing_margin": "operating_point.pressure leaves nothing to seal",
+    "air_leakage": "the fin does not press on the bore at the worst of tolerances and temperatures",
 }
 """Figure -> why it is missing although the data are there."""
 
@@ -72,10 +90,12 @@ def _reason(spec: Spec, figure: str) -> str | None:
 
 
 def _lacking(spec: Spec, figure: str) -> str | None:
-    if figure in _DATA:
-        key, data = _DATA[figure]
+    measured = figure in _FRICTION and "actuator.seal.contact_force" in spec.values
+    for key, data in () if measured else _DATA.get(figure, ()):
         material = lookup(spec.word(key), key, spec.materials, Material)
-        lacking = [name for name in data if getattr(material, name, None) is None]
+        own = key == _LIP and "actuator.piston.fin_modulus" in spec.values
+        known = {"young_modulus"} if own else set()
+        lacking = [name for name in data if name not in known and getattr(material, name, None) is None]
         if lacking:
             return f'{key} "{material.name}" states no {" and no ".join(lacking)}'
     if figure in _PEAK and "operating_point.peak_current" not in spec.given:
