@@ -19,10 +19,16 @@ HOW = (
     "the design.toml that a search wrote: the figure then stands here."
 )
 
+WHY = (
+    "A force constant that the controller knows drops out of the error: a stronger motor compensates the same friction "
+    "with less current. What stays goes with the friction, µ (s P + F_0), and with how late the controller sees the "
+    "velocity change its sign."
+)
+
 LEAST = 5e-4
 """N, below which two medians are shown as the same."""
 
-DEFAULT = "taken where nothing is given; docs/mcfc.md has its reason"
+UNMARKED = "published, or what is taken where nothing is given: docs/mcfc.md"
 
 
 def section(result: BenchmarkResult) -> dict[str, Any]:
@@ -52,6 +58,7 @@ def section(result: BenchmarkResult) -> dict[str, Any]:
         "designs": curves.designs(sound) if len(sound) > 1 else None,
         "comparison": comparison(sound, benchmark.published, benchmark.causes) if len(sound) > 1 else None,
         "gains": gains(sound) if len(sound) > 1 else (),
+        "why": WHY,
         "failed": tuple(f"{item.label}: {' '.join(item.reasons)}" for item in result.runs if not item.ok),
         "how": "" if result.against else HOW,
     }
@@ -155,14 +162,13 @@ def parameters(spec: Spec, prefix: str) -> Table:
         if not key.name.startswith(prefix) or key.name not in spec.values:
             continue
         value, note = spec.values[key.name], notes.get(key.name)
-        taken = "default" if value == key.default else "given"
         rows.append(
             (
                 Cell(capital(key.leaf.replace("_", " "))),
                 Cell(capital(key.doc)),
                 Cell(_value(spec, key.name, value)),
-                Cell(note.status if note is not None else taken),
-                Cell(note.reason if note is not None else DEFAULT if taken == "default" else ""),
+                Cell(note.status if note is not None else DASH),
+                Cell(*((note.reason,) if note is not None else (UNMARKED, "muted"))),
             )
         )
     head = ("Parameter", "What it is", "Value", "Status", "Reason")
@@ -175,7 +181,7 @@ def _value(spec: Spec, name: str, value: Value) -> str:
     if isinstance(value, str):
         return value
     unit = key_scale(spec, name, [float(value)])
-    return f"{significant(unit.shown(float(value)))}\u00a0{unit.unit}".rstrip()
+    return f"{unit.shown(float(value)):.6g}\u00a0{unit.unit}".rstrip()
 
 
 def missed(result: BenchmarkResult) -> tuple[str, ...]:
@@ -217,13 +223,15 @@ def gains(runs: Sequence[DesignRun]) -> tuple[str, ...]:
     start = runs[0].figures["median_rmse"]
     found = []
     for run in runs[1:]:
+        changes = {name: run.figures["median_rmse"][name] - start[name] for name in curves.CONDITIONS}
+        if all(abs(change) < LEAST for change in changes.values()):
+            found.append(f"{run.label}: the median error does not change under any condition.")
+            continue
         parts = []
-        for name in curves.CONDITIONS:
-            change = run.figures["median_rmse"][name] - start[name]
-            share = f" ({'+' if change > 0 else ''}{plain(100 * change / start[name], 1)}\u00a0%)"
-            text = (
-                f"{'+' if change > 0 else ''}{plain(change, 3)}\u00a0N{share}" if abs(change) >= LEAST else "no change"
-            )
+        for name, change in changes.items():
+            sign = "+" if change > 0 else ""
+            text = f"{sign}{plain(change, 3)}\u00a0N ({sign}{plain(100 * change / start[name], 1)}\u00a0%)"
+            text = text if abs(change) >= LEAST else "no change"
             word = ", no more than the seeds differ," if LEAST <= abs(change) <= _spread(runs[0], name) else ""
             parts.append(f"{text}{word} under {_whole(name)}")
         found.append(f"{run.label}: median error {listing(parts)}.")

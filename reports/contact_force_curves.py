@@ -59,7 +59,7 @@ def loops(simulation: Simulation) -> Drawing | None:
         for frequency, colour in shown:
             plots[0].plot([], [], color=colour, label=f"{frequency:g} Hz")
         plots[0].plot([], [], color=INK, lw=0.8, ls=(0, (4, 3)), label="target")
-        canvas.legend(*plots[0].get_legend_handles_labels(), loc="outside upper right", ncols=3)
+        canvas.legend(*plots[0].get_legend_handles_labels(), loc="outside upper left", ncols=3)
         alt = (
             "Hysteresis loops of the contact force over the relative position under P-N, P-P and P-E, "
             f"at targets of {listing(f'{target:g}' for target in TARGETS)} N and "
@@ -252,7 +252,7 @@ def _condition_legend(canvas: Figure, published: str) -> None:
     lines = [Line2D([], [], color=COLOURS[name], marker=MARKS[name], label=name, lw=1.6) for name in CONDITIONS]
     if published:
         lines.append(Line2D([], [], color=MUTED, lw=1.2, ls=(0, (2, 2)), label=published))
-    canvas.legend(handles=lines, loc="outside upper right", ncols=len(lines))
+    canvas.legend(handles=lines, loc="outside upper left", ncols=len(lines))
 
 
 def _bracket(plot: Axes, pair: Mapping[str, object], height: float, top: float) -> None:

@@ -152,6 +152,17 @@ def test_designs_stand_beside_one_another(toy, capsys):
     assert "NOT within 0.5" in text or "within 0.5" in text
 
 
+def test_designs_are_called_by_their_folders(toy, capsys):
+    """Catches two results of searches that are both called "design", and a long path where a name would do."""
+    for folder in ("ring", "fin", "more/fin"):
+        Path(folder).mkdir(parents=True)
+        Path(folder, "design.toml").write_text(SPEC)
+    names = ("ring/design.toml", "fin/design.toml", "more/fin/design.toml", "weak.toml")
+    assert main([*RUN, "--seeds", "1", "--json", *(word for name in names for word in ("--against", name))]) == 0
+    answer = json.loads(capsys.readouterr().out)
+    assert [item["design"] for item in answer["against"]] == ["ring", "fin", "more/fin/design", "weak"]
+
+
 @pytest.mark.parametrize(
     ("arguments", "sentence"),
     [

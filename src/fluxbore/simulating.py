@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -23,7 +23,7 @@ from fluxbore.optimize.simulation_run import KIND, run_benchmark
 from fluxbore.optimize.simulation_table import FILE_NAME, HEAD, TRACES, traces_table, trials_table
 from fluxbore.reading import as_spec
 from fluxbore.report_file import REPORT_FILE, write_report_file
-from fluxbore.workshop import Workshop, workshop
+from fluxbore.workshop import DESIGN_FILE, Workshop, workshop
 
 FIGURES_FILE = "figures.json"
 
@@ -108,7 +108,7 @@ def _others(benchmark: Benchmark, spec: Spec, against: Sequence[Spec | Path | st
     labels = {spec.word("actuator.name")}
     for item in against:
         other = as_spec(item)
-        label = other.word("actuator.name") if isinstance(item, Spec) else str(Path(item).with_suffix(""))
+        label = other.word("actuator.name") if isinstance(item, Spec) else _label(Path(item), labels)
         if other.kind is not spec.kind:
             raise SpecError(
                 f"against must name designs of kind {spec.kind.name}, as the specification's is; "
@@ -119,6 +119,12 @@ def _others(benchmark: Benchmark, spec: Spec, against: Sequence[Spec | Path | st
         labels.add(label)
         found.append((label, on_the_stand_of(spec, benchmark, other)))
     return found
+
+
+def _label(path: Path, taken: Collection[str]) -> str:
+    """What a design is called by its file, design.toml by its folder; the whole path where that name is taken."""
+    short = path.parent.name if path.name == DESIGN_FILE and path.parent.name else path.stem
+    return short if short not in taken else str(path.with_suffix(""))
 
 
 def on_the_stand_of(spec: Spec, benchmark: Benchmark, other: Spec) -> Spec:
