@@ -23,6 +23,6 @@ def gradient_keys(spec: Spec, asked: Sequence[str] | None = None) -> tuple[str, 
         raise SpecError(f'gradient must list dotted keys, ["actuator.mover.ring_width"]; got {shown(asked)}.')
     for name in asked:
         key = spec.kind.known(name)
-        if key.kind not in ("quantity", "number") or key.section == "solver" or name not in spec.values:
+        if key.kind not in ("quantity", "number") or not key.of_design or name not in spec.values:
             raise SpecError(f"gradient must name continuous quantities that have a value; got {name}.")
     return tuple(dict.fromkeys(asked))

@@ -52,6 +52,11 @@ class Key:
         return self.name.rpartition(".")[0]
 
     @property
+    def of_design(self) -> bool:
+        """Whether it describes the design or its operating point: what a study may move and figures depend on."""
+        return self.name.partition(".")[0] not in ("solver", "benchmark")
+
+    @property
     def leaf(self) -> str:
         return self.name.rpartition(".")[2]
 

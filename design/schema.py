@@ -41,7 +41,7 @@ def _of_kind(name: str, keys: tuple[Key, ...]) -> dict[str, Any]:
     tree["properties"]["actuator"]["properties"]["kind"] = {"const": name}
     tree["properties"]["actuator"]["required"] = ["kind"]
     tree["properties"]["materials"] = {"type": "object", "additionalProperties": material_schema()}
-    tree["properties"]["study"] = _study([key for key in keys if key.kind != "word" and key.section != "solver"])
+    tree["properties"]["study"] = _study([key for key in keys if key.kind != "word" and key.of_design])
     tree["required"] = ["actuator"]
     return tree
 

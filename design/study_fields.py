@@ -52,15 +52,15 @@ def numeric_key(raw: Mapping[str, Any], where: str, known: Mapping[str, Key], *,
     if key is None:
         hint = suggestion(name, known) if isinstance(name, str) else ""
         raise SpecError(f"{where}.key must be a dotted key of this specification{hint}; got {shown(name)}.")
-    if key.kind == "word" or (key.kind == "integer" and not integers) or key.section == "solver":
+    if key.kind == "word" or (key.kind == "integer" and not integers) or not key.of_design:
         kinds = "a dimension, a number or a count" if integers else "a continuous quantity"
         raise SpecError(f"{where}.key must name {kinds}; got {key.name}, which is {_kind_word(key)}.")
     return key
 
 
 def _kind_word(key: Key) -> str:
-    if key.section == "solver":
-        return "a setting of the solver"
+    if not key.of_design:
+        return f"a setting of the {key.name.partition('.')[0]}"
     return {"word": "a word", "integer": "a count"}.get(key.kind, "a quantity")
 
 

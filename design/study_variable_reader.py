@@ -13,7 +13,7 @@ from fluxbore.design.study_fields import allow, check_at, numeric_key, read_valu
 
 def movable(key: Key) -> bool:
     """Whether a search may move the key: a quantity, a number, or a count of the actuator's own parts."""
-    if key.kind == "word" or key.section == "solver":
+    if key.kind == "word" or not key.of_design:
         return False
     return key.kind != "integer" or key.name.startswith("actuator.")
 

@@ -44,7 +44,7 @@ def differentiable(spec: Spec, keys: Sequence[str]) -> list[str]:
         for name in keys
         if name in kinds
         and kinds[name].kind in ("quantity", "number")
-        and kinds[name].section != "solver"
+        and kinds[name].of_design
         and (name in spec.given or (name in spec.values and name not in following))
     ]
 
