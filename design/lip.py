@@ -11,7 +11,7 @@ a beam on the elastic foundation that the hoops are (Hetenyi, Beams on Elastic F
 tubes; Timoshenko and Woinowsky-Krieger, Theory of Plates and Shells, 1959, chapter 15), of the cylinder of the cone's
 mean radius of curvature R/cos(phi) (Geckeler's approximation). F is the radial force of tip on bore, linear in the
 interference and in the pressure: F = stiffness x delta + area x p. Formulas from memory of these works; checked
-against finite elements of the whole conical shell in tests/design/test_lip.py: forces within 4 %, stresses within 10 %
+against finite elements of the whole conical shell in tests/design/test_lip.py: forces within 3 %, stresses within 7 %
 in the range below.
 
 Valid for a thin wall (t/R below 0.1), a slender cone (phi below 20 deg), small strains, no friction at the tip, and

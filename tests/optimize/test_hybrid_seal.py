@@ -160,7 +160,14 @@ def test_beyond_the_lips_formulas_is_said() -> None:
 
 WRONG = {
     "fin below the bore": ({"actuator.piston.fin_outer_diameter": "16 mm"}, "fin_outer_diameter must exceed"),
-    "inner above outer": ({"actuator.piston.fin_inner_diameter": "16.4 mm"}, "fin_inner_diameter must be below"),
+    "inner above outer": (
+        {"actuator.piston.fin_inner_diameter": "16.4 mm"},
+        r"fin_inner_diameter must be below actuator\.piston\.fin_outer_diameter 16\.3 mm; got 16\.4 mm",
+    ),
+    "inner above the bore": (
+        {"actuator.piston.fin_inner_diameter": "16.2 mm"},
+        r"fin_inner_diameter must be below actuator\.cylinder\.inner_diameter",
+    ),
     "no length": ({"actuator.piston.fin_length": "0 mm"}, "fin_length must exceed 0 mm"),
     "negative pressure": ({"operating_point.pressure": "-1 kPa gauge"}, "pressure must be at least 0 MPa gauge"),
     "temperatures swapped": (
