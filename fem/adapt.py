@@ -15,7 +15,7 @@ import numpy as np
 
 from fluxbore.fem.bisection import prepare, refine
 from fluxbore.fem.element import flux_density_squared, shape
-from fluxbore.fem.linear import Factor, SingularMatrixError
+from fluxbore.fem.factors import Factor, SingularMatrixError
 from fluxbore.fem.magnetostatics import Settings, Solution, in_sheets, solve
 from fluxbore.fem.mesh import Floats, Ints, Mesh
 from fluxbore.fem.outline import Outline

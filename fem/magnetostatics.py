@@ -16,7 +16,8 @@ from fluxbore.fem.element import (
     stiffness,
     to_frame,
 )
-from fluxbore.fem.linear import Corrected, Factor, Method, Tangents, factorise
+from fluxbore.fem.factors import Factor
+from fluxbore.fem.linear import Corrected, Method, Tangents, factorise
 from fluxbore.fem.mesh import Floats, Ints, Mesh
 from fluxbore.fem.newton import ROUGHEST, Convergence, newton
 from fluxbore.fem.problem import MagneticMaterial, Problem, Stack

@@ -14,7 +14,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from fluxbore.fem.linear import Pattern
+from fluxbore.fem.pattern import Pattern
 
 Chart = Literal["axisymmetric", "planar"]
 Floats = NDArray[np.float64]

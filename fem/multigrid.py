@@ -16,7 +16,8 @@ import numpy as np
 
 from fluxbore.fem.aggregation import v_cycle
 from fluxbore.fem.conjugate_gradients import Iterated, conjugate_gradients
-from fluxbore.fem.linear import Factor, Floats, Pattern, SingularMatrixError, SuperLU
+from fluxbore.fem.factors import Factor, SingularMatrixError, SuperLU
+from fluxbore.fem.pattern import Floats, Pattern
 
 STRENGTH = 0.08
 """θ. At 0, quadratic triangles take twice the iterations, growing with the mesh; at 0.25 the coarse grids fail.

@@ -15,7 +15,7 @@ from typing import Literal, Protocol, runtime_checkable
 
 import numpy as np
 
-from fluxbore.fem.linear import Factor, SingularMatrixError
+from fluxbore.fem.factors import Factor, SingularMatrixError
 from fluxbore.fem.mesh import Floats
 
 Status = Literal["converged", "stalled", "iteration limit", "singular matrix"]

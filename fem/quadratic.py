@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 
 from fluxbore.fem.element import QUADRATURE_POINTS, shape_derivatives
 from fluxbore.fem.field import CORNERS_AND_MIDDLES
-from fluxbore.fem.linear import near_numbering
 from fluxbore.fem.mesh import Floats, Ints, in_chart
 from fluxbore.fem.outline import Outline
+from fluxbore.fem.pattern import near_numbering
 from fluxbore.fem.triangulation import Triangulation
 
 Flags = NDArray[np.bool_]

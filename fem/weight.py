@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fluxbore.fem.element import kernel, positions, stiffness
-from fluxbore.fem.linear import Pattern, choose, factorise
+from fluxbore.fem.linear import choose, factorise
 from fluxbore.fem.mesh import Floats, Ints, Mesh
+from fluxbore.fem.pattern import Pattern
 from fluxbore.fem.problem import Problem
 
 Flags = NDArray[np.bool_]

@@ -14,9 +14,9 @@ import pytest
 
 import fluxbore
 from fluxbore.cli import main
+from fluxbore.fem.factors import SingularMatrixError
 from fluxbore.fem.femm_model import CircuitProperty
 from fluxbore.fem.femm_writer import write_text
-from fluxbore.fem.linear import SingularMatrixError
 from fluxbore.fem.magnetostatics import Settings
 
 CURRENT = f"circuit.{femm_models.SPULE}.current"

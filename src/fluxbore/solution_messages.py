@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 
 from fluxbore.design.errors import one_line
+from fluxbore.fem.factors import SingularMatrixError
 from fluxbore.fem.femm_model import FemmModel
 from fluxbore.fem.femm_solution import FemmSolution, GroupForce
-from fluxbore.fem.linear import SingularMatrixError
 
 FORCE = (
     "force",

@@ -7,10 +7,10 @@ from math import isfinite
 from pathlib import Path
 
 from fluxbore.design.errors import MeshError, SpecError, one_line, shown
+from fluxbore.fem.factors import SingularMatrixError
 from fluxbore.fem.femm_model import FemmModel
 from fluxbore.fem.femm_reader import read_model
 from fluxbore.fem.femm_solution import FemmSolution, solve_model
-from fluxbore.fem.linear import SingularMatrixError
 from fluxbore.fem.threads import one_thread
 
 TIGHTEST_ACCURACY, LOOSEST_ACCURACY = 1e-6, 0.5

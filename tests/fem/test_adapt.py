@@ -15,9 +15,9 @@ from cases.drawing import MU_0, Drawing
 
 from fluxbore.fem.adapt import tangent_product
 from fluxbore.fem.bisection import signed_area
+from fluxbore.fem.factors import SingularMatrixError
 from fluxbore.fem.femm_model import FemmModel
 from fluxbore.fem.femm_solution import FemmSolution, solve_model
-from fluxbore.fem.linear import SingularMatrixError
 
 
 def corner() -> FemmModel:

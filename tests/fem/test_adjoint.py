@@ -12,10 +12,10 @@ from small_motor import COARSE_R, COARSE_Z, cubic_iron, difference, small_sectio
 from fluxbore.design.materials import standard
 from fluxbore.fem.adjoint import Linearisation
 from fluxbore.fem.asymptotic import OpenRim, open_edges
-from fluxbore.fem.linear import Pattern
 from fluxbore.fem.magnetostatics import Solution, System
 from fluxbore.fem.mapped import MappedMesh, breakpoint_derivative, mapped_mesh
 from fluxbore.fem.newton import Convergence
+from fluxbore.fem.pattern import Pattern
 from fluxbore.fem.problem import MagneticMaterial, Problem
 from fluxbore.fem.reluctivity import reluctivity_curve
 

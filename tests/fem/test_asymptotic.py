@@ -7,7 +7,8 @@ import pytest
 
 from fluxbore.design.spec import Spec
 from fluxbore.fem.asymptotic import across_end, across_shell, open_edges
-from fluxbore.fem.linear import SingularMatrixError, factorise
+from fluxbore.fem.factors import SingularMatrixError
+from fluxbore.fem.linear import factorise
 from fluxbore.fem.linkage import circuits, flux_linkages
 from fluxbore.fem.magnetostatics import Solution, System, solve
 from fluxbore.fem.mapped import MappedMesh, Subdivision, mapped_mesh

@@ -3,8 +3,10 @@
 import numpy as np
 import pytest
 
-from fluxbore.fem.linear import BandedCholesky, Corrected, Pattern, SingularMatrixError, SuperLU, factorise
+from fluxbore.fem.factors import BandedCholesky, SingularMatrixError, SuperLU
+from fluxbore.fem.linear import Corrected, factorise
 from fluxbore.fem.magnetostatics import Settings, solve
+from fluxbore.fem.pattern import Pattern
 from fluxbore.fem.tubular import TubularSolution
 
 

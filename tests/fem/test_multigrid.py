@@ -6,20 +6,13 @@ import numpy as np
 import pytest
 
 from fluxbore.fem.element import kernel, stiffness
-from fluxbore.fem.linear import (
-    BandedCholesky,
-    Corrected,
-    Pattern,
-    SingularMatrixError,
-    SuperLU,
-    choose,
-    factorise,
-    near_numbering,
-)
+from fluxbore.fem.factors import BandedCholesky, SingularMatrixError, SuperLU
+from fluxbore.fem.linear import Corrected, choose, factorise
 from fluxbore.fem.magnetostatics import Settings, solve
 from fluxbore.fem.mapped import MappedMesh
 from fluxbore.fem.mesh import Floats, Mesh, Topology
 from fluxbore.fem.multigrid import Multigrid
+from fluxbore.fem.pattern import Pattern, near_numbering
 from fluxbore.fem.tubular import TubularSolution
 
 IRON = 1e-4

@@ -10,7 +10,8 @@ from fluxbore.design.bh_curve import BHCurve
 from fluxbore.design.materials import SoftIron, lookup, standard
 from fluxbore.fem import linear
 from fluxbore.fem.conductors import Conductor, circuit
-from fluxbore.fem.linear import Factor, Method, SingularMatrixError, Tangents
+from fluxbore.fem.factors import Factor, SingularMatrixError
+from fluxbore.fem.linear import Method, Tangents
 from fluxbore.fem.magnetostatics import Settings, System, solve
 from fluxbore.fem.mapped import MappedMesh
 from fluxbore.fem.newton import ROUGHEST, Convergence, newton

@@ -19,8 +19,8 @@ from small_motor import (
 )
 
 from fluxbore.fem import functionals
+from fluxbore.fem.factors import BandedCholesky
 from fluxbore.fem.functionals import Functional
-from fluxbore.fem.linear import BandedCholesky
 from fluxbore.fem.tubular import TubularSolution, space_vector
 from fluxbore.fem.tubular_gradient import TubularAdjoint
 from fluxbore.geometry.cross_section import CrossSection

@@ -11,7 +11,7 @@ from short_motor import EXAMPLE, short_spec
 
 from fluxbore.design.performance import to_mapping
 from fluxbore.design.spec import Spec, load
-from fluxbore.fem.linear import BandedCholesky
+from fluxbore.fem.factors import BandedCholesky
 from fluxbore.fem.threads import one_thread
 from fluxbore.optimize.evaluate import evaluate
 from fluxbore.optimize.evaluation import Evaluation

