@@ -78,7 +78,7 @@ HYBRID_KEYS: tuple[Key, ...] = (
     _length("cylinder.inner_diameter", "D_c'", "air cylinder bore as drawn: for the field and the CAD"),
     Key(
         "actuator.cylinder.bore_tolerance",
-        "total width of the tolerance field of inner_diameter, which lies in its middle; 0.027 mm is H8",
+        "bore tolerance, the total width of the field in whose middle inner_diameter lies; 0.027 mm is H8",
         minimum=0.0,
         maximum=1e-2,
         default=0.027e-3,

@@ -86,7 +86,7 @@ SEAL_KEYS: tuple[Key, ...] = (
 FIN_KEYS: tuple[Key, ...] = (
     Key(
         "actuator.piston.fin_tolerance",
-        "total width of the tolerance field of fin_outer_diameter, which lies in its middle",
+        "fin tolerance, the total width of the field in whose middle fin_outer_diameter lies",
         minimum=0.0,
         maximum=1e-2,
         default=0.043e-3,
