@@ -55,7 +55,8 @@ class Benchmark:
     the field that the simulation moves through. field : what the simulation takes of those evaluations. simulate : one
     seed, with traces or without; a worker finds it by its name, so it stands in a module. published : the figures that
     a table shows. causes : what of a design its results come from, which makes those of two designs differ. limits :
-    what agreement with the source does not show, in sentences.
+    what agreement with the source does not show, in sentences. variations : of a design and its field, other values of
+    keys that leave the field as it is, each with what it is called.
     """
 
     name: str
@@ -67,6 +68,7 @@ class Benchmark:
     published: tuple[Published, ...] = ()
     causes: tuple[Published, ...] = ()
     limits: tuple[str, ...] = ()
+    variations: Callable[[Spec, Any], Sequence[tuple[str, Mapping[str, Value]]]] = lambda spec, field: ()
 
     @property
     def section(self) -> str:
@@ -101,6 +103,7 @@ class DesignRun:
 class BenchmarkResult:
     """A benchmark's runs: of the specification's own design, and of those that it is set against.
 
+    variations : the specification's own design under other conditions, the first seed alone, where they were asked for.
     reused : simulations that had not to be computed. files : what was written.
     """
 
@@ -108,6 +111,7 @@ class BenchmarkResult:
     seeds: tuple[int, ...]
     run: DesignRun
     against: tuple[DesignRun, ...] = ()
+    variations: tuple[DesignRun, ...] = ()
     reused: int = 0
     files: tuple[Path, ...] = ()
 
@@ -117,5 +121,15 @@ class BenchmarkResult:
 
     @property
     def runs(self) -> tuple[DesignRun, ...]:
-        """All of them, the specification's own first."""
+        """Those of all designs, the specification's own first."""
         return (self.run, *self.against)
+
+    @property
+    def moved(self) -> tuple[Published, ...]:
+        """The published figures that any variation changes."""
+        first = self.run.simulations[0].figures
+        return tuple(
+            item
+            for item in self.benchmark.published
+            if any(run.ok and item.of(run.figures) != item.of(first) for run in self.variations)
+        )

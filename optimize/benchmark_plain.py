@@ -16,18 +16,16 @@ def result_plain(result: BenchmarkResult) -> dict[str, Any]:
             "reasons": list(result.run.reasons),
             "benchmark": result.benchmark.name,
             "figures": _figures(result.run) if result.ok else {},
-            "against": [
-                {
-                    "design": run.label,
-                    "status": run.status,
-                    "reasons": list(run.reasons),
-                    "figures": _figures(run) if run.ok else {},
-                }
-                for run in result.against
-            ],
+            "against": [_named("design", run) for run in result.against],
+            "variations": [_named("change", run) for run in result.variations],
         }
     )
     return plain
+
+
+def _named(what: str, run: DesignRun) -> dict[str, Any]:
+    figures = _figures(run) if run.ok else {}
+    return {what: run.label, "status": run.status, "reasons": list(run.reasons), "figures": figures}
 
 
 def _figures(run: DesignRun) -> dict[str, Any]:

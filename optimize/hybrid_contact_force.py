@@ -83,6 +83,23 @@ def _surroundings(spec: Spec, evaluations: Sequence[Evaluation]) -> Surroundings
     return Surroundings(force_map_of(around), around.performance.moving_mass, contact_force(spec))
 
 
+def _variations(spec: Spec, around: Surroundings) -> Sequence[tuple[str, Mapping[str, Value]]]:
+    """A tenth more and less of what a controller may take wrongly, and of the two times that decide on its lateness."""
+    given = spec.values.get("benchmark.mcfc.force_constant")
+    constant = around.force_map.mean_force_constant if given is None else float(given)
+    bases = (
+        ("friction, unknown to the controller", "friction_share", spec.number("benchmark.mcfc.friction_share")),
+        ("force constant that the controller takes", "force_constant", constant),
+        ("valve lag", "valve_lag", spec.number("benchmark.mcfc.valve_lag")),
+        ("velocity filter", "velocity_filter", spec.number("benchmark.mcfc.velocity_filter")),
+    )
+    return [
+        (f"{label}, {sign}10 %", {f"benchmark.mcfc.{key}": factor * base})
+        for label, key, base in bases
+        for sign, factor in (("+", 1.1), ("\N{MINUS SIGN}", 0.9))
+    ]
+
+
 def simulate_contact_force(spec: Spec, around: Surroundings, seed: int, traces: bool) -> Simulation:
     """One seed of all 144 trials, and beside their figures what of the design they come from. Raises SpecError."""
     from fluxbore.design.dynamics.contact_force import simulate
@@ -115,4 +132,5 @@ MCFC = Benchmark(
     PUBLISHED,
     CAUSES,
     LIMITS,
+    _variations,
 )

@@ -60,20 +60,25 @@ def run_benchmark(
     fidelity: Fidelity = "fem",
     progress: Report | None = None,
     traces: Path | None = None,
+    vary: bool = False,
 ) -> BenchmarkResult:
     """Every design with every seed, in the executor's processes.
 
     designs : by label, the study's own first; its first seed comes with traces. traces : a folder whose traces are
-    taken where they are that seed's. Another design without figures keeps its reasons, and does not stop the others.
+    taken where they are that seed's. vary : whether the own design's variations are wanted too.
+    Another design without figures keeps its reasons, and does not stop the others.
 
     Raises SpecError where the study's own design cannot be put through it as its specification stands.
     """
     seen = [_seen(benchmark, label, spec, executor, journal, fidelity) for label, spec in designs]
     _check(seen[0])
+    count = len(seen)
+    seen += _varied(benchmark, seen[0]) if vary and seen[0].status == OK else []
     keys: dict[tuple[int, int], str] = {}
     waiting: list[tuple[int, int]] = []
     for number, design in enumerate(seen):
-        for seed in seeds if design.status == OK else ():
+        wanted = seeds if number < count else seeds[:1]
+        for seed in wanted if design.status == OK else ():
             place = number, seed
             keys[place] = simulation_key(benchmark, design.spec, fidelity, design.surroundings, seed)
             known = _known(journal, keys[place], traces if place == (0, seeds[0]) else None, place == (0, seeds[0]))
@@ -101,8 +106,8 @@ def run_benchmark(
             failed += 1
             seen[number].fail(FAILED, (outcome.failure or "The simulation failed.",))
         _tell(progress, done, len(keys), reused, failed, begin)
-    first, *others = [design.run() for design in seen]
-    return BenchmarkResult(benchmark, tuple(seeds), first, tuple(others), reused)
+    runs = tuple(design.run() for design in seen)
+    return BenchmarkResult(benchmark, tuple(seeds), runs[0], runs[1:count], runs[count:], reused)
 
 
 def _seen(
@@ -125,6 +130,17 @@ def _seen(
     except FluxboreError as error:
         design.fail(REFUSED, (str(error),))
     return design
+
+
+def _varied(benchmark: Benchmark, own: _Design) -> list[_Design]:
+    """The own design under each of the benchmark's other conditions, in the same field."""
+    found = []
+    for label, values in benchmark.variations(own.spec, own.surroundings):
+        try:
+            found.append(_Design(label, own.spec.with_values(values), own.evaluation, own.surroundings))
+        except FluxboreError as error:  # beyond a key's limits
+            found.append(_Design(label, own.spec, own.evaluation, own.surroundings, REFUSED, (str(error),)))
+    return found
 
 
 def _check(own: _Design) -> None:

@@ -59,6 +59,7 @@ def section(result: BenchmarkResult) -> dict[str, Any]:
         "comparison": comparison(sound, benchmark.published, benchmark.causes) if len(sound) > 1 else None,
         "gains": gains(sound) if len(sound) > 1 else (),
         "why": WHY,
+        "variations": variations(result) if result.variations else None,
         "failed": tuple(f"{item.label}: {' '.join(item.reasons)}" for item in result.runs if not item.ok),
         "how": "" if result.against else HOW,
     }
@@ -216,6 +217,23 @@ def comparison(runs: Sequence[DesignRun], published: Sequence[Published], causes
         rows.append(tuple(cells))
     head = ("Design", *(_titled(item, scales[item.path]) for item in shown))
     return Table("Designs on the same test stand, and what makes them differ", head, tuple(rows))
+
+
+def variations(result: BenchmarkResult) -> Table:
+    """The first seed under every other condition, beside the same seed as it was."""
+    first = result.run.simulations[0]
+    shown = result.moved
+    everyone = [first.figures, *(run.figures for run in result.variations if run.ok)]
+    scales = {item.path: _scale(item, [item.of(figures) for figures in everyone]) for item in shown}
+
+    def row(label: str, figures: Mapping[str, Any], tone: str) -> tuple[Cell, ...]:
+        return (Cell(capital(label)), *(Cell(scales[item.path].number(item.of(figures)), tone) for item in shown))
+
+    rows = [row("as it is", first.figures, "strong")]
+    for run in result.variations:
+        rows.append(row(run.label if run.ok else f"{run.label}: {' '.join(run.reasons)}", run.figures, ""))
+    head = ("One change at a time", *(_titled(item, scales[item.path]) for item in shown))
+    return Table(f"What a tenth more or less does; seed {first.seed}", head, tuple(rows))
 
 
 def gains(runs: Sequence[DesignRun]) -> tuple[str, ...]:

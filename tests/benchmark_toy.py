@@ -20,6 +20,7 @@ def simulate(spec: Spec, field: float, seed: int, traces: bool) -> Simulation:
     if spec.number("actuator.coil_1.current_density") < 0:
         raise DesignError("A current against the field cannot be simulated.")
     time = np.linspace(0.0, 1.0, 5)
+    error = seed * field * abs(spec.number(DENSITY)) / 22.5e6
     trials = tuple(
         Trial(
             {"way": way, "load": load},
@@ -29,7 +30,7 @@ def simulate(spec: Spec, field: float, seed: int, traces: bool) -> Simulation:
         for way in ("A", "B")
         for load in (0.1, 0.2)
     )
-    return Simulation("toy", seed, trials, {"error": {"A": seed * field}, "cells": seed, "pairs": [[seed, "x"]]})
+    return Simulation("toy", seed, trials, {"error": {"A": error}, "cells": seed, "pairs": [[seed, "x"]]})
 
 
 def designs(spec: Spec) -> list[dict[str, float]]:
@@ -40,6 +41,21 @@ def field(spec: Spec, evaluations: list) -> float:
     return float(evaluations[0].performance.central_flux_density)
 
 
+DENSITY = "actuator.coil_1.current_density"
+
+
+def variations(spec: Spec, field: float) -> list[tuple[str, dict[str, float]]]:
+    """The second the benchmark refuses, the third the key."""
+    return [(f"{factor:g}", {DENSITY: factor * spec.number(DENSITY)}) for factor in (0.5, -1.0, 1e12)]
+
+
 TOY = Benchmark(
-    "toy", "toy", "nobody", designs, field, simulate, (Published(("error", "A"), "error", "count", 1.0, 0.5),)
+    "toy",
+    "toy",
+    "nobody",
+    designs,
+    field,
+    simulate,
+    (Published(("error", "A"), "error", "count", 1.0, 0.5), Published(("cells",), "cells", "count")),
+    variations=variations,
 )

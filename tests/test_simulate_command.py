@@ -152,6 +152,19 @@ def test_designs_stand_beside_one_another(toy, capsys):
     assert "NOT within 0.5" in text or "within 0.5" in text
 
 
+def test_sensitivities_are_a_table(toy, capsys):
+    """Catches variations that are run and not told, in words or in JSON."""
+    assert main([*RUN, "--seeds", "1", "--vary", "--json"]) == 0
+    answer = json.loads(capsys.readouterr().out)
+    assert [item["change"] for item in answer["variations"]] == ["0.5", "-1", "1e+12"]
+    assert [item["status"] for item in answer["variations"]] == ["ok", "refused", "refused"]
+    assert main([*RUN, "--seeds", "1", "--vary"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    (before,) = [line for line in lines if line.startswith("as it is")]
+    (half,) = [line for line in lines if line.startswith("0.5 ")]
+    assert float(half.split()[-1]) == pytest.approx(float(before.split()[-1]) / 2, rel=1e-3)
+
+
 def test_designs_are_called_by_their_folders(toy, capsys):
     """Catches two results of searches that are both called "design", and a long path where a name would do."""
     for folder in ("ring", "fin", "more/fin"):
@@ -261,6 +274,24 @@ def test_python_has_the_same_words(toy):
     assert result.run.simulations[0].trials[0].trace is not None
     with pytest.raises(fluxbore.FluxboreError, match="seeds must be from 1"):
         fluxbore.simulate(spec, "toy", seeds=-1)
+
+
+def test_a_tenth_is_a_tenth_of_what_the_specification_has():
+    """Catches a variation of the default where a value is given, and a force constant that is not the design's."""
+    from types import SimpleNamespace
+
+    from fluxbore.design.spec import loads
+
+    text = (TOP / "examples" / "ipehla.toml").read_text(encoding="utf-8")
+    benchmark = actuators.ACTUATORS["hybrid"].benchmarks["mcfc"]
+    around = SimpleNamespace(force_map=SimpleNamespace(mean_force_constant=8.0))
+    own = loads(text, {"benchmark.mcfc.valve_lag": "0.2 s"})
+    found = [values for _, values in benchmark.variations(own, around)]
+    assert {"benchmark.mcfc.valve_lag": pytest.approx(0.22)} in found
+    assert {"benchmark.mcfc.friction_share": pytest.approx(0.9)} in found
+    assert {"benchmark.mcfc.force_constant": pytest.approx(8.8)} in found
+    given = loads(text, {"benchmark.mcfc.force_constant": "10 N/A"})
+    assert {"benchmark.mcfc.force_constant": pytest.approx(9.0)} in [v for _, v in benchmark.variations(given, around)]
 
 
 def test_other_designs_stand_on_the_same_test_stand():

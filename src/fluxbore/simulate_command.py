@@ -28,6 +28,7 @@ def add_to(add: Add) -> None:
         default=[],
         help="another design's specification, put through the same; may be given several times",
     )
+    parser.add_argument("--vary", action="store_true", help="what a tenth more or less of some parameters does, too")
     parser.add_argument("--no-picture", action="store_true", help="do without the rendered picture in the report")
 
 
@@ -45,6 +46,7 @@ def _simulate(options: argparse.Namespace) -> Answer:
             seeds=options.seeds,
             seed=options.seed,
             against=options.against,
+            vary=options.vary,
             fidelity=options.fidelity,
             progress=bar.show,
             picture=not options.no_picture,

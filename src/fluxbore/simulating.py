@@ -39,6 +39,7 @@ def simulate(
     seeds: int = 5,
     seed: int = 1,
     against: Sequence[Spec | Path | str] = (),
+    vary: bool = False,
     fidelity: Fidelity = "fem",
     workers: int | None = None,
     scheduler: str | None = None,
@@ -51,7 +52,8 @@ def simulate(
     """Put the specification's design through a benchmark of its kind, such as "mcfc".
 
     seeds : how many; the first is ``seed``, each other one more. against : other designs, put through the same with
-    the specification's own section of the benchmark, so that only the designs differ. folder : gets ``results.csv``,
+    the specification's own section of the benchmark, so that only the designs differ. vary : whether the first seed is
+    run under the benchmark's other conditions too, for a table of sensitivities. folder : gets ``results.csv``,
     ``traces.parquet``, ``figures.json``, ``report.html`` and the journal, from which the same run takes what it has.
     fidelity : what computes the field that the mover passes. picture : whether the report has a rendered view.
 
@@ -76,6 +78,7 @@ def simulate(
             fidelity,
             progress,
             place.path if place is not None else None,
+            vary,
         )
         if place is None or not result.ok:
             return result

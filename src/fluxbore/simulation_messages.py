@@ -38,6 +38,8 @@ def simulation_text(result: BenchmarkResult) -> str:
     parts.append(_table(_designs(result)))
     if result.against:
         parts += [f"{item.label}: {' '.join(item.reasons)}" for item in result.against if not item.ok]
+    if result.variations:
+        parts.append(_table(_variations(result)))
     if result.files:
         parts.append("\n".join(str(path) for path in result.files))
     return "\n\n".join(parts)
@@ -96,6 +98,17 @@ def _designs(result: BenchmarkResult) -> list[tuple[str, ...]]:
     shown = (*(result.benchmark.published if result.against else ()), *result.benchmark.causes)
     for item in {item.path: item for item in shown}.values():
         rows.append((item.label, *(_show(item.of(run.figures), item.dimension) for run in sound)))
+    return rows
+
+
+def _variations(result: BenchmarkResult) -> list[tuple[str, ...]]:
+    """The first seed under every other condition, and as it was."""
+    varying, first = result.moved, result.run.simulations[0]
+    rows: list[tuple[str, ...]] = [(f"seed {first.seed}", *(item.label for item in varying))]
+    rows.append(("as it is", *(_show(item.of(first.figures), item.dimension) for item in varying)))
+    for run in result.variations:
+        shown = [_show(item.of(run.figures), item.dimension) for item in varying]
+        rows.append((run.label, *shown) if run.ok else (run.label, " ".join(run.reasons), *[""] * (len(varying) - 1)))
     return rows
 
 

@@ -69,6 +69,23 @@ def test_a_design_that_cannot_be_simulated_keeps_its_reason(spec):
         run([("bad", bad), ("own", spec)], (1, 2))
 
 
+def test_variations_are_the_first_seed_in_the_same_field(spec, calls):
+    """Catches variations of another design or seed, a field that is computed anew, and a refused one that ends all."""
+    weaker = spec.with_values({DENSITY: spec.number(DENSITY) / 3})
+    result = run([("own", spec), ("weaker", weaker)], (7, 8), vary=True)
+    assert [item.label for item in result.against] == ["weaker"]
+    half, turned, huge = result.variations
+    assert [item.seed for item in half.simulations] == [7]
+    assert half.field == result.run.field
+    assert half.figures["error"]["A"] == pytest.approx(result.run.simulations[0].figures["error"]["A"] / 2, rel=1e-12)
+    assert (turned.status, turned.figures) == ("refused", {})
+    assert huge.status == "refused"
+    assert DENSITY in huge.reasons[0]
+    assert [item.path for item in result.moved] == [("error", "A")]
+    assert sorted(calls) == [(7, False), (7, False), (7, False), (7, True), (8, False), (8, False)]
+    assert run([("own", spec)], (7,)).variations == ()
+
+
 def test_the_journal_spares_every_seed_that_it_holds(spec, calls, tmp_path):
     """Catches a run again that simulates again, one without the journal that sees other figures, and a key that
     forgets the design."""
@@ -127,7 +144,7 @@ def test_medians_go_into_what_is_nested():
 
 def test_a_published_figure_is_held_against_its_own_path():
     """Catches a comparison with a figure that is not there, and one whose sign of the difference counts."""
-    (published,) = TOY.published
+    published, _ = TOY.published
     assert published.of({"error": {"A": 1.25}}) == 1.25
     assert published.reproduced({"error": {"A": 0.5}}) is True
     assert published.reproduced({"error": {"A": 0.49}}) is False

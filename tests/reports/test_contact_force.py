@@ -152,22 +152,36 @@ def test_designs_are_set_against_the_first(compared):
     assert "no more than the seeds differ" in text
 
 
-def test_the_section_stands_whole_on_the_page(content: ReportContent, alone, compared):
+def test_variations_stand_beside_the_same_seed(alone):
+    """Catches a comparison with the median of the seeds, and a refused variation that ends the page."""
+    more = run("friction, +10 %", 1.1, (1,))
+    bad = run("valve lag, +10 %", simulations=(), figures={}, status="refused", reasons=("It is too long.",))
+    varied = dataclasses.replace(alone, variations=(more, bad))
+    table = contact_force.variations(varied)
+    first = alone.run.simulations[0].figures["median_rmse"]["P-E"]
+    assert cells(table, "As it is")[3] == f"{first:.3f}"
+    assert cells(table, "Friction, +10 %")[3] == f"{1.1 * first:.3f}"
+    assert cells(table, "Valve lag, +10 %: It is too long.")[1:] == ["–"] * (len(table.head) - 1)
+    assert "Contact area of the fin" not in " ".join(table.head)
+    assert contact_force.section(varied)["variations"] == table
+
+
+def test_the_section_stands_whole_on_the_page(alone, compared):
     """Catches a picture that is missing, a failed design that is passed over, and advice where nothing is missing."""
-    page = render(dataclasses.replace(content, simulation=compared))
+    page = render(ReportContent(spec=SPEC, simulation=compared))
     assert page.count('id="contact-force"') == 1
     assert 'href="#contact-force"' in page
     for name in ("loops", "speed", "boxes", "trace", "designs"):
         assert f"contact-force-{name}-" in page
     assert "bad: benchmark.mcfc.stroke is too long." in page
     assert "--against DESIGN.toml" not in page
-    lone = render(dataclasses.replace(content, simulation=alone))
+    lone = render(ReportContent(spec=SPEC, simulation=alone))
     assert "contact-force-designs-" not in lone
     assert "--against DESIGN.toml" in lone
     assert len(lone) < len(page)
     labels = re.findall(r'aria-label="(Root mean square[^"]+)"', lone)
     assert len(labels) == 1
-    assert 'id="contact-force"' not in render(content)
+    assert 'id="contact-force"' not in render(ReportContent(spec=SPEC))
 
 
 def test_a_simulation_without_traces_leaves_out_what_needs_them():
