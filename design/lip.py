@@ -15,8 +15,8 @@ against finite elements of the whole conical shell in tests/design/test_lip.py: 
 in the range below.
 
 Valid for a thin wall (t/R below 0.1), a slender cone (phi below 20 deg), small strains, no friction at the tip, and
-while the tip alone touches: `touches` says where pressure has bulged the lip against the bore behind its tip too.
-Neither creep nor the modulus' fall with temperature is in it.
+while the tip alone touches: `Response.touches` says where pressure has bulged the lip against the bore behind its tip
+too. Neither creep nor the modulus' fall with temperature is in it.
 """
 
 from __future__ import annotations
@@ -82,54 +82,71 @@ class Lip:
         return math.sqrt(math.sqrt(self.foundation / (4 * self.bending_stiffness)))
 
 
-def contact_force(lip: Lip, interference: float, pressure: float) -> float:
-    """F (N), radial, all around, of one lip: interference in m on the radius, pressure in Pa gauge."""
-    return stiffness(lip) * interference + pressure_area(lip) * pressure
+@dataclass(frozen=True, slots=True)
+class Response:
+    """What a lip does, linear in the interference (m) and in the pressure (Pa).
 
-
-def stiffness(lip: Lip) -> float:
-    """N of radial force per m of radial interference."""
-    return _tip_force(lip, 1.0, 0.0)
-
-
-def pressure_area(lip: Lip) -> float:
-    """N of radial force per Pa of chamber pressure (m^2), to be compared with s of Nakata and Noda's equation (5)."""
-    return _tip_force(lip, 0.0, 1.0)
-
-
-def stress(lip: Lip, interference: float, pressure: float) -> float:
-    """The largest equivalent (von Mises) stress (Pa) in the lip, at either face, root and tip included.
-
-    Bending along the meridian with its share across, and the hoop's w cos(phi)/r E. It bends over where the largest
-    of one place gives way to that of another, and is smooth elsewhere.
+    stiffness : N of radial force, all around, per m of radial interference. pressure_area : the same per Pa of chamber
+    pressure (m^2), to be compared with s of Nakata and Noda's equation (5). deflection, bending : (stations, 2), w (m)
+    and the bending stress along the meridian at the outer face (Pa), per m and per Pa.
     """
+
+    lip: Lip
+    stiffness: float
+    pressure_area: float
+    deflection: Floats
+    bending: Floats
+
+    def contact_force(self, interference: float, pressure: float) -> float:
+        """F (N), radial, all around, of one lip."""
+        return self.stiffness * interference + self.pressure_area * pressure
+
+    def stress(self, interference: float, pressure: float) -> float:
+        """The largest equivalent (von Mises) stress (Pa) in the lip, at either face, root and tip included.
+
+        Bending along the meridian with its share across, and the hoop's w cos(phi)/r E. It bends over where the largest
+        of one place gives way to that of another, and is smooth elsewhere.
+        """
+        load = np.array([interference, pressure])
+        bending = self.bending @ load
+        hoop = self.lip.young_modulus * (self.deflection @ load) * math.cos(self.lip.angle) / _radii(self.lip)
+        faces = np.stack([bending, -bending])
+        around = hoop + self.lip.poisson_ratio * faces
+        return float(np.sqrt(np.max(faces**2 - faces * around + around**2)))
+
+    def worst_stress(self, interferences: tuple[float, float], pressure: float) -> float:
+        """The largest `stress` (Pa) between two interferences (m) and between no pressure and this one (Pa gauge).
+
+        Stresses are linear in both, and von Mises' is convex: the largest stands in a corner.
+        """
+        return max(self.stress(interference, load) for interference in interferences for load in (0.0, pressure))
+
+    def touches(self, interference: float, pressure: float) -> bool:
+        """Whether the lip reaches the bore behind its tip, so that a band and not a line presses."""
+        w = self.deflection @ np.array([interference, pressure])
+        # The tip's own place, of this interference, is the bore.
+        bore = self.lip.outer_diameter / 2 - interference
+        return bool(np.any((_radii(self.lip) + w * math.cos(self.lip.angle))[:-1] > bore))
+
+
+def response(lip: Lip) -> Response:
+    """The boundary-value problem solved for a unit of interference and a unit of pressure; a quarter of a millisecond."""
+    free = np.array([0.0, 1 / lip.foundation])
+    pushed = np.array([-1 / math.cos(lip.angle), 0.0])
+    ends = np.array([0.0, 1.0])
+    value, slope, curvature, jerk = (_functions(lip, ends, order) for order in range(4))
+    conditions = np.stack([value[0], slope[0], curvature[1], value[1]])
+    nothing = np.zeros(2)
+    shape = np.linalg.solve(conditions, np.stack([-free, nothing, nothing, pushed - free]))
+    force = math.pi * lip.bore / math.cos(lip.angle) * lip.bending_stiffness * lip.decay**3 * (jerk[1] @ shape)
     along = np.linspace(0.0, 1.0, STATIONS)
-    shape = _shape(lip, interference, pressure)
-    w, curvature = _deflection(lip, shape, pressure, along), _derivative(lip, shape, along, 2)
-    r = lip.inner_diameter / 2 + along * (lip.outer_diameter - lip.inner_diameter) / 2
-    bending = 6 * lip.bending_stiffness * curvature / lip.thickness**2
-    hoop = lip.young_modulus * w * math.cos(lip.angle) / r
-    faces = np.stack([bending, -bending])
-    around = hoop + lip.poisson_ratio * faces
-    return float(np.sqrt(np.max(faces**2 - faces * around + around**2)))
-
-
-def worst_stress(lip: Lip, interferences: tuple[float, float], pressure: float) -> float:
-    """The largest `stress` (Pa) between two interferences (m) and between no pressure and this one (Pa gauge).
-
-    Stresses are linear in both, and von Mises' is convex: the largest stands in a corner.
-    """
-    return max(stress(lip, interference, load) for interference in interferences for load in (0.0, pressure))
-
-
-def touches(lip: Lip, interference: float, pressure: float) -> bool:
-    """Whether the lip reaches the bore behind its tip, so that a band and not a line presses."""
-    along = np.linspace(0.0, 1.0, STATIONS)[:-1]
-    w = _deflection(lip, _shape(lip, interference, pressure), pressure, along)
-    # The tip's own place, of this interference, is the bore.
-    bore = lip.outer_diameter / 2 - interference
-    r = lip.inner_diameter / 2 + along * (lip.outer_diameter - lip.inner_diameter) / 2
-    return bool(np.any(r + w * math.cos(lip.angle) > bore))
+    return Response(
+        lip,
+        float(force[0]),
+        float(force[1]),
+        free + _functions(lip, along, 0) @ shape,
+        6 * lip.bending_stiffness / lip.thickness**2 * lip.decay**2 * (_functions(lip, along, 2) @ shape),
+    )
 
 
 def in_range(lip: Lip) -> bool:
@@ -137,21 +154,9 @@ def in_range(lip: Lip) -> bool:
     return lip.thickness / lip.radius < THICKEST and lip.angle < STEEPEST
 
 
-def _tip_force(lip: Lip, interference: float, pressure: float) -> float:
-    shape = _shape(lip, interference, pressure)
-    shear = lip.bending_stiffness * float(_derivative(lip, shape, np.array([1.0]), 3)[0])
-    return math.pi * lip.bore * shear / math.cos(lip.angle)
-
-
-def _shape(lip: Lip, interference: float, pressure: float) -> Floats:
-    """The four coefficients of w - p/k in the functions of `_functions`, from the four conditions at root and tip."""
-    free = pressure / lip.foundation
-    root, tip = np.array([0.0]), np.array([1.0])
-    conditions = np.concatenate(
-        [_functions(lip, root, 0), _functions(lip, root, 1), _functions(lip, tip, 2), _functions(lip, tip, 0)]
-    )
-    values = np.array([-free, 0.0, 0.0, -interference / math.cos(lip.angle) - free])
-    return np.linalg.solve(conditions, values)
+def _radii(lip: Lip) -> Floats:
+    """Of the stations (m), before anything presses."""
+    return np.linspace(lip.inner_diameter / 2, lip.outer_diameter / 2, STATIONS)
 
 
 def _functions(lip: Lip, along: Floats, order: int) -> Floats:
@@ -161,12 +166,3 @@ def _functions(lip: Lip, along: Floats, order: int) -> Floats:
     from_root = (-kappa) ** order * np.exp(-kappa * length * along)
     from_tip = kappa**order * np.exp(-kappa * length * (1 - along))
     return np.stack([from_root.real, -from_root.imag, from_tip.real, -from_tip.imag], axis=1)
-
-
-def _derivative(lip: Lip, shape: Floats, along: Floats, order: int) -> Floats:
-    """The derivative of w by s of this order, one or more."""
-    return lip.decay**order * (_functions(lip, along, order) @ shape)
-
-
-def _deflection(lip: Lip, shape: Floats, pressure: float, along: Floats) -> Floats:
-    return pressure / lip.foundation + _functions(lip, along, 0) @ shape

@@ -174,7 +174,7 @@ class Performance:
     bore_dilation: float | None = _figure(
         "length",
         PRESSURE,
-        "radial displacement of the bore under the pressure; inwards, below zero, under vacuum",
+        "radial displacement of the bore under the pressure, outwards",
         signed=True,
     )
     bore_clearance: float | None = _figure(

@@ -49,9 +49,8 @@ def contact_force(spec: Spec) -> float | None:
     found = lip_of(spec)
     if found is None:
         return None
-    return spec.number("actuator.seal.guide_force") + FINS * lip.contact_force(
-        found, seal.interference(spec.actuator), 0.0
-    )
+    lips = FINS * lip.response(found).contact_force(seal.interference(spec.actuator), 0.0)
+    return spec.number("actuator.seal.guide_force") + lips
 
 
 def friction_law(spec: Spec) -> friction.SealFriction:
@@ -112,7 +111,7 @@ def warnings(spec: Spec) -> tuple[str, ...]:
     pressure = spec.number("operating_point.pressure")
     fit = _fit(spec, spec.actuator)
     interference = fit[1] if fit is not None else seal.interference(spec.actuator)
-    if lip.touches(wall, interference, pressure):
+    if lip.response(wall).touches(interference, pressure):
         found.append(
             "At operating_point.pressure the seal fin bulges against the bore behind its tip; its contact force is a "
             "lower bound and its stress an upper one."
@@ -124,8 +123,8 @@ def _contact(
     spec: Spec, wall: Lip, drawn: float, fit: tuple[float, float] | None, area: float, pressure: float
 ) -> dict[str, float | None]:
     """What one lip does at a pressure: drawn is its interference (m), fit the least and the largest."""
-    stiffness, active = lip.stiffness(wall), lip.pressure_area(wall)
-    pressed = (stiffness * drawn + active * pressure) / area
+    response = lip.response(wall)
+    pressed = response.contact_force(drawn, pressure) / area
     wear = seal_leakage.wear_rate(spec.number("actuator.seal.specific_wear"), pressed)
     found: dict[str, float | None] = {
         "lip_contact_force": pressed * area,
@@ -134,8 +133,8 @@ def _contact(
     }
     if fit is None:
         return found
-    least = (stiffness * fit[0] + active * pressure) / area
-    stress, strength = lip.worst_stress(wall, fit, pressure), _lip_material(spec).yield_stress
+    least = response.contact_force(fit[0], pressure) / area
+    stress, strength = response.worst_stress(fit, pressure), _lip_material(spec).yield_stress
     found |= {
         "sealing_margin": least / pressure if pressure > UNPRESSED else None,
         "lip_stress": stress,

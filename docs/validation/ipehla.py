@@ -145,7 +145,8 @@ Nakata and Noda, "Fusion Hybrid Linear Actuator", IEEE/ASME Trans. Mechatronics 
 - It says that inserting a cylinder into a slotted motor makes R_m' increase and R_g decrease, so that B_g0 drops. By
   its own equation (1) these signs would raise B_g0: the directions are swapped.
 - The force densities of 241 kN/m^3 and 15 kN/(A m^3) need a volume of 5.35e-4 m^3, which Table II does not give: the
-  stator of 27 mm by 205 mm has 1.17e-4 m^3. They are not computed here.
+  stator of 27 mm by 205 mm has 1.17e-4 m^3. The figures `thrust_density` and `force_constant_density` are over the
+  former in `examples/ipehla.toml`, as inferred, and over the latter by default.
 - The measured 8.02 N/A is 7.5 % below the paper's own FEM. Nothing in the model is tuned to it.
 """
 
