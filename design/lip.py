@@ -130,7 +130,7 @@ class Response:
 
 
 def response(lip: Lip) -> Response:
-    """The boundary-value problem solved for a unit of interference and a unit of pressure; a quarter of a millisecond."""
+    """The boundary-value problem, solved for a unit of interference and one of pressure; a quarter of a millisecond."""
     free = np.array([0.0, 1 / lip.foundation])
     pushed = np.array([-1 / math.cos(lip.angle), 0.0])
     ends = np.array([0.0, 1.0])
