@@ -200,6 +200,7 @@ def designs(runs: Sequence[DesignRun]) -> Drawing:
             plot.set_title(condition, loc="left")
             plot.set_xlabel("median RMSE (N)")
             plot.margins(x=0.25)
+            plot.locator_params(axis="x", nbins=5)
             spread = max(middles) - min(middles)
             if spread < 0.1:  # N: what is nearly equal shall not look far apart
                 plot.set_xlim(middles[0] - 0.1, middles[0] + 0.1)
