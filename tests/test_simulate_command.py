@@ -181,7 +181,12 @@ def test_designs_are_called_by_their_folders(toy, capsys):
     [
         (("--benchmark", "mcfc"), 'benchmark must be one of toy for an actuator of kind coils; got "mcfc".'),
         (("--seeds", "0"), "seeds must be from 1 to 1000; got 0."),
+        (("--seeds", "-1"), "seeds must be from 1 to 1000; got -1."),
+        (("--seeds", "99999999999999"), "seeds must be from 1 to 1000; got 99999999999999."),
+        (("--seeds", "9" * 5000), "argument --seeds: must be a whole number; got"),
+        (("--seeds", "1-"), 'argument --seeds: must be a whole number; got "1-"'),
         (("--seeds", "1001"), "seeds must be from 1 to 1000; got 1001."),
+        (("--seed", "-1"), "seed must be from 0 to 2147483647; got -1."),
         (("--seed", "2147483648"), "seed must be from 0 to 2147483647; got 2147483648."),
         (("--seeds", "two"), 'argument --seeds: must be a whole number; got "two"; see fluxbore simulate --help.'),
         (("--against", "nowhere.toml"), "nowhere.toml cannot be read: No such file or directory."),
@@ -216,7 +221,8 @@ def test_a_kind_without_benchmarks_says_so(tmp_path, monkeypatch, capsys):
     Path("spec.toml").write_text(SPEC)
     assert main(["simulate", "spec.toml", "--benchmark", "mcfc"]) == 2
     assert capsys.readouterr().err == (
-        'fluxbore: benchmark must be left out for an actuator of kind coils, which has none; got "mcfc".\n'
+        "fluxbore: benchmark must be one of the actuator's kind, and kind coils has none (hybrid has mcfc); "
+        'got "mcfc".\n'
     )
 
 
@@ -227,12 +233,41 @@ def test_a_study_s_results_are_not_replaced(toy, capsys):
     capsys.readouterr()
     command = [*RUN, "--seeds", "1", "-o", "out", "--no-picture"]
     assert main(command) == 2
-    assert "out must be empty or hold simulations; it holds results.csv of a study (see --force)." in (
+    assert "out must be empty or hold results of simulations; it holds results.csv of a study (see --force)." in (
         capsys.readouterr().err
     )
     assert Path("out/results.csv").read_bytes() == before
     assert main([*command, "--force"]) == 0
     assert Path("out/results.csv").read_text().startswith("design,seed,way,load")
+    assert not Path("out/results.parquet").exists()
+
+
+@pytest.mark.parametrize("study", ["sweep", "optimize", "design"])
+def test_a_simulation_s_results_are_not_replaced(toy, capsys, study):
+    """Catches trials and their report that a study in the same folder would overwrite, or leave beside its own."""
+    assert main([*RUN, "--seeds", "1", "-o", "out", "--no-picture"]) == 0
+    before = {path.name: path.read_bytes() for path in Path("out").iterdir()}
+    capsys.readouterr()
+    command = [study, "spec.toml", "-o", "out", "--workers", "1", "--quiet"]
+    assert main(command) == 2
+    assert capsys.readouterr().err == (
+        "fluxbore: out must be empty or hold results of a study; it holds results.csv of simulations (see --force).\n"
+    )
+    assert {path.name: path.read_bytes() for path in Path("out").iterdir()} == before
+    if study == "sweep":
+        assert main([*command, "--force"]) == 0
+        assert not Path("out/results.csv").read_text().startswith("design,seed")
+        assert not {"traces.parquet", "figures.json", "report.html"} & {path.name for path in Path("out").iterdir()}
+
+
+def test_a_table_that_cannot_be_read_is_a_sentence(toy, capsys):
+    """Catches a traceback where results.csv is no file."""
+    assert main([*RUN, "--seeds", "1", "-o", "out", "--no-picture"]) == 0
+    Path("out/results.csv").unlink()
+    Path("out/results.csv").mkdir()
+    capsys.readouterr()
+    assert main([*RUN, "--seeds", "1", "-o", "out", "--no-picture"]) == 2
+    assert capsys.readouterr().err == "fluxbore: out/results.csv cannot be read: Is a directory.\n"
 
 
 def test_an_interrupt_leaves_whole_files_and_what_was_computed(toy, capsys, monkeypatch):

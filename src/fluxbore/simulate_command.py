@@ -8,6 +8,9 @@ from fluxbore.exit_status import DONE, NOT_VALID
 from fluxbore.spec_options import path_name, read_spec, with_fidelity, with_run
 from fluxbore.study_command import Add, Answer, run_options
 
+MOST_DIGITS = 1000
+"""Python itself reads no number of more than 4300."""
+
 
 def add_to(add: Add) -> None:
     """Make the parser of this command."""
@@ -61,6 +64,7 @@ def _whole(text: str) -> int:
     """A whole number; its range is the interface's to check."""
     from fluxbore.design.errors import shown
 
-    if not text.isascii() or not text.isdigit() or len(text) > 12:
+    digits = text.removeprefix("-")
+    if not digits.isascii() or not digits.isdigit() or len(digits) > MOST_DIGITS:
         raise argparse.ArgumentTypeError(f"must be a whole number; got {shown(text)}")
     return int(text)

@@ -7,8 +7,8 @@ from collections.abc import Collection, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from fluxbore.actuators import actuator_of
-from fluxbore.design.errors import OutputError, SpecError, shown
+from fluxbore.actuators import ACTUATORS, actuator_of
+from fluxbore.design.errors import SpecError, shown
 from fluxbore.design.spec import Spec
 from fluxbore.design_result import judged
 from fluxbore.optimize.benchmark import Benchmark, BenchmarkResult
@@ -20,7 +20,7 @@ from fluxbore.optimize.folder import Folder
 from fluxbore.optimize.progress import Report
 from fluxbore.optimize.simulation_record import simulation_key
 from fluxbore.optimize.simulation_run import KIND, run_benchmark
-from fluxbore.optimize.simulation_table import FILE_NAME, HEAD, TRACES, traces_table, trials_table
+from fluxbore.optimize.simulation_table import FILE_NAME, TRACES, traces_table, trials_table
 from fluxbore.reading import as_spec
 from fluxbore.report_file import REPORT_FILE, write_report_file
 from fluxbore.workshop import DESIGN_FILE, Workshop, workshop
@@ -65,10 +65,8 @@ def simulate(
     chosen = benchmark_of(spec, benchmark)
     numbers = _seeds(seeds, seed)
     designs = [(spec.word("actuator.name"), spec), *_others(chosen, spec, against)]
-    with workshop(spec, folder, workers, scheduler, time_limit, force) as shop:
+    with workshop(spec, folder, workers, scheduler, time_limit, force, tables="simulation") as shop:
         place = shop.folder
-        if place is not None and not force:
-            _refuse_studies(place)
         result = run_benchmark(
             chosen,
             designs,
@@ -88,13 +86,19 @@ def simulate(
 def benchmark_of(spec: Spec, name: str) -> Benchmark:
     """The benchmark of this name. Raises SpecError where the specification's kind does not have it."""
     known = actuator_of(spec).benchmarks
-    if name not in known:
-        has = f"be one of {', '.join(known)}" if known else "be left out"
+    if name in known:
+        return known[name]
+    if known:
         raise SpecError(
-            f"benchmark must {has} for an actuator of kind {spec.kind.name}{'' if known else ', which has none'}; "
-            f"got {shown(name)}."
+            f"benchmark must be one of {', '.join(known)} for an actuator of kind {spec.kind.name}; got {shown(name)}."
         )
-    return known[name]
+    having = "; ".join(
+        f"{kind} has {', '.join(actuator.benchmarks)}" for kind, actuator in ACTUATORS.items() if actuator.benchmarks
+    )
+    raise SpecError(
+        f"benchmark must be one of the actuator's kind, and kind {spec.kind.name} has none ({having}); "
+        f"got {shown(name)}."
+    )
 
 
 def _seeds(count: int, first: int) -> tuple[int, ...]:
@@ -136,19 +140,6 @@ def on_the_stand_of(spec: Spec, benchmark: Benchmark, other: Spec) -> Spec:
     own = {key: value for key, value in spec.given.items() if key.startswith(benchmark.section)}
     notes = tuple(note for note in other.notes if not note.key.startswith(benchmark.section))
     return replace(other, given={**given, **own}, notes=notes)
-
-
-def _refuse_studies(place: Folder) -> None:
-    """Raise OutputError where results.csv is that of a sweep or a search, which nothing here may replace."""
-    table = place.path / FILE_NAME
-    if not table.exists():
-        return
-    with table.open(encoding="utf-8", errors="replace") as file:
-        head = file.readline()
-    if not head.startswith(",".join(HEAD) + ","):
-        raise OutputError(
-            f"{place.path} must be empty or hold simulations; it holds {FILE_NAME} of a study (see --force)."
-        )
 
 
 def _write(

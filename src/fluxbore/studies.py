@@ -114,7 +114,7 @@ def tolerance(
     """
     spec = as_spec(spec)
     need(spec.study.production, "study.production", "a tolerance analysis")
-    with workshop(spec, folder, workers, scheduler, time_limit, force) as shop:
+    with workshop(spec, folder, workers, scheduler, time_limit, force, tables=None) as shop:
         result = run_tolerance(spec, shop.journal, shop.executor, progress, fidelity=fidelity)
         shop.write_tolerance(result)
     return result

@@ -15,6 +15,7 @@ from fluxbore.design.spec_file import to_toml
 from fluxbore.optimize import pareto_table, parquet, tolerance_table
 from fluxbore.optimize.executor import TIME_LIMIT, Executor, local_executor
 from fluxbore.optimize.folder import Folder, open_folder
+from fluxbore.optimize.folder_tables import Tables, keep_apart
 from fluxbore.optimize.journal import Journal
 from fluxbore.optimize.outcome import Candidate, SweepResult
 from fluxbore.optimize.pareto_result import ParetoResult
@@ -87,15 +88,19 @@ def workshop(
     scheduler: str | None,
     time_limit: float | None,
     force: bool,
+    *,
+    tables: Tables | None = "study",
 ) -> Iterator[Workshop]:
     """The workshop of one run, closed at its end.
 
     workers : processes on this machine; scheduler : of a Dask cluster in their place. time_limit : s for one design,
-    None for the usual one.
+    None for the usual one. tables : the kind of results.csv that the run writes, None where it writes none.
     """
     with ExitStack() as stack:
         executor = stack.enter_context(_executor(workers, scheduler, TIME_LIMIT if time_limit is None else time_limit))
         place = stack.enter_context(open_folder(folder, spec, force)) if folder is not None else None
+        if place is not None and tables is not None:
+            keep_apart(place, tables, force)
         yield Workshop(place, executor)
 
 
