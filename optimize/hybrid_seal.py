@@ -6,11 +6,13 @@ pressure is that of its own lips.
 
 from __future__ import annotations
 
+import math
+
 from fluxbore.design import friction, lip, seal, seal_leakage
 from fluxbore.design.errors import DesignError
 from fluxbore.design.fin_fit import Fit, interferences
 from fluxbore.design.hybrid import HybridActuator
-from fluxbore.design.lip import Lip
+from fluxbore.design.lip import Lip, Response
 from fluxbore.design.materials import Material, lookup
 from fluxbore.design.spec import Spec
 from fluxbore.design.units import format_quantity
@@ -97,7 +99,7 @@ def figures(spec: Spec, actuator: HybridActuator) -> dict[str, float | None]:
 
 
 def warnings(spec: Spec) -> tuple[str, ...]:
-    """Where the lip leaves the range of its formulas."""
+    """Where the lip leaves the range of its formulas, or its seal is none at the worst of its fit."""
     wall = lip_of(spec)
     if wall is None:
         return ()
@@ -111,12 +113,32 @@ def warnings(spec: Spec) -> tuple[str, ...]:
     pressure = spec.number("operating_point.pressure")
     fit = _fit(spec, spec.actuator)
     interference = fit[1] if fit is not None else seal.interference(spec.actuator)
-    if lip.response(wall).touches(interference, pressure):
+    response = lip.response(wall)
+    if response.touches(interference, pressure):
         found.append(
             "At operating_point.pressure the seal fin bulges against the bore behind its tip; its contact force is a "
             "lower bound and its stress an upper one."
         )
+    if fit is not None:
+        found += _loose(response, fit[0], seal.contact_area(spec.actuator), pressure)
     return tuple(found)
+
+
+def _loose(response: Response, least: float, area: float, pressure: float) -> list[str]:
+    """A seal that opens, at its least interference (m)."""
+    found = []
+    if least <= 0:
+        found.append(
+            "At the worst of tolerances and temperatures the seal fin does not touch the bore without pressure: "
+            f"fin_interference is {format_quantity(least, 'length', 3)}, and seal_life is none."
+        )
+    margin = response.contact_force(least, pressure) / area / pressure if pressure > UNPRESSED else math.inf
+    if margin < 1:
+        found.append(
+            f"At its least interference the seal fin presses with {margin:.3g} of operating_point.pressure, and air "
+            "lifts it; air_leakage is that of a lip which stays down."
+        )
+    return found
 
 
 def _contact(

@@ -158,6 +158,31 @@ def test_beyond_the_lips_formulas_is_said() -> None:
     assert "bulges against the bore" in bulged
 
 
+def test_a_seal_that_opens_is_said() -> None:
+    """Catches a leakage and a life that stand there as if the lip still pressed."""
+    wide = PROTOTYPE.with_values({"actuator.cylinder.bore_tolerance": 0.4e-3})
+    assert seal_figures(wide).fin_interference < 0  # type: ignore[operator]
+    assert "does not touch the bore without pressure: fin_interference is -0.0252 mm" in " ".join(warnings(wide))
+    tight = PROTOTYPE.with_values({"actuator.cylinder.bore_tolerance": 0.027e-3 + 4 * 68.0e-6})
+    assert 0 < seal_figures(tight).fin_interference < 0.2e-6  # type: ignore[operator]
+    assert "does not touch" not in " ".join(warnings(tight))
+    weak = PROTOTYPE.with_values(
+        {
+            "actuator.piston.fin_outer_diameter": 16.5e-3,
+            "actuator.piston.fin_inner_diameter": 15.5e-3,
+            "actuator.piston.fin_length": 2.5e-3,
+            "actuator.piston.fin_modulus": 1e6,
+        }
+    )
+    margin = seal_figures(weak).sealing_margin
+    assert margin is not None
+    assert margin < 1
+    assert any(
+        f"presses with {margin:.3g} of operating_point.pressure, and air lifts it" in text for text in warnings(weak)
+    )
+    assert not any("lifts" in text for text in warnings(weak.with_values({"operating_point.pressure": 0.0})))
+
+
 WRONG = {
     "fin below the bore": ({"actuator.piston.fin_outer_diameter": "16 mm"}, "fin_outer_diameter must exceed"),
     "inner above outer": (
