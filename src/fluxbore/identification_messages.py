@@ -42,8 +42,7 @@ def identification_plain(result: Identification) -> dict[str, Any]:
 def identification_text(result: Identification) -> str:
     """A table for people."""
     found = result.found
-    origin = "the specification" if result.own_spec else f"the template {result.model.template}, for want of --spec"
-    taken = ", ".join(f"{name} {format_quantity(*value, DIGITS)}" for name, value in result.taken.items())
+    taken = f"; {_taken(result)}" if result.model.specified else ""
     level = f"{found.level * 100:g} % interval"
     theirs = "specification" if result.own_spec else "template"
     columns = ["parameter", "", "estimate", level, *([theirs, "difference"] if result.given else []), ""]
@@ -61,24 +60,16 @@ def identification_text(result: Identification) -> str:
     notes = [f"scatter of the {len(found.residuals)} points about the model: {scatter}"]
     if correlated:
         notes.append(f"Parameters that correlate by more than {CORRELATED:g} trade off against each other.")
-    return "\n".join(
-        [
-            f"{result.model.name} from {found.source}: {result.rows} rows; {taken} of {origin}",
-            "",
-            *lines,
-            "",
-            *notes,
-            "",
-            "For the specification:",
-            "",
-            toml_lines(result),
-        ]
-    )
+    specification = ["", "For the specification:", "", toml_lines(result)] if result.model.specified else []
+    heading = f"{result.model.name} from {found.source}: {result.rows} rows{taken}"
+    return "\n".join([heading, "", *lines, "", *notes, *specification])
 
 
 def toml_lines(result: Identification) -> str:
-    """The parameters as a specification holds them, each with where it comes from."""
-    lines = [f"[{result.model.section}]"]
+    """The parameters as a specification holds them, each with where it comes from; none for a model without one."""
+    if result.model.specified is None:
+        return ""
+    lines = [f"[{result.model.specified.section}]"]
     for name, estimate in result.found.parameters.items():
         low, high = (_number(value, estimate.dimension) for value in (estimate.low, estimate.high))
         value = _show(estimate.value, estimate)
@@ -89,6 +80,15 @@ def toml_lines(result: Identification) -> str:
         quoted = value if estimate.dimension is None else json.dumps(value)
         lines.append(f"{name} = {{ value = {quoted}, calibrated = {json.dumps(reason)} }}")
     return "\n".join(lines)
+
+
+def _taken(result: Identification) -> str:
+    """What the fit took as known, and from where."""
+    how = result.model.specified
+    template = "" if how is None else how.template
+    origin = "the specification" if result.own_spec else f"the template {template}, for want of --spec"
+    known = ", ".join(f"{name} {format_quantity(*value, DIGITS)}" for name, value in result.taken.items())
+    return f"{known} of {origin}"
 
 
 def _row(result: Identification, name: str, estimate: Estimate, notes: list[str]) -> list[str]:

@@ -19,39 +19,50 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Model:
-    """What can be identified.
+class Specified:
+    """How a model goes by a specification.
 
     kind : of actuator. template : the specification to go by where none is given. section : of the keys that bear the
-    parameters' names. symbols : parameter -> its symbol. free : parameters that are found only where asked for.
-    measured : the dimension of what the model gives, and of the scatter about it. taken : what the fit takes as known
-    from a specification, in SI with its dimension. read, fit : a file's measurements, and the parameters that follow
-    from them; fit's last arguments are the level and the parameters asked for.
+    parameters' names. taken : what the fit takes as known from it, in SI with its dimension.
     """
 
-    name: str
     kind: str
     template: str
     section: str
+    taken: Callable[[Spec], Mapping[str, tuple[float, str]]]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Model:
+    """What can be identified.
+
+    symbols : parameter -> its symbol. free : parameters that are found only where asked for. measured : the dimension
+    of what the model gives, and of the scatter about it. read, fit : a file's measurements, and the parameters that
+    follow from them; fit's last arguments are the level and the parameters asked for. specified : None where the fit
+    goes by the data alone; its specification is None then.
+    """
+
+    name: str
     symbols: Mapping[str, str]
     free: tuple[str, ...]
     measured: str
     read: Callable[[Path | str], Measurements]
-    taken: Callable[[Spec], Mapping[str, tuple[float, str]]]
-    fit: Callable[[Measurements, Spec, float, Sequence[str]], Identified]
+    fit: Callable[[Measurements, Spec | None, float, Sequence[str]], Identified]
+    specified: Specified | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Identification:
     """A model's parameters from a file.
 
-    spec : that the fit went by, the model's template where `own_spec` is false. rows : of the file. taken : what the
-    fit took from it as known, in SI with its dimension. given : the specification's own values of the parameters.
+    spec : that the fit went by, the model's template where `own_spec` is false, None where it went by the data alone.
+    rows : of the file. taken : what the fit took from it as known, in SI with its dimension. given : the
+    specification's own values of the parameters.
     """
 
     model: Model
     found: Identified
-    spec: Spec
+    spec: Spec | None
     own_spec: bool
     rows: int
     taken: Mapping[str, tuple[float, str]]
@@ -66,7 +77,7 @@ def identify(
     level: float = 0.95,
     free: Sequence[str] = (),
 ) -> Identification:
-    """The parameters of a model ("friction") from a CSV file, with their intervals at a level of confidence.
+    """The parameters of a model ("friction", "magnetic-spring") from a CSV file, with intervals at a confidence level.
 
     spec : the actuator that was measured; without it the model's template. free : parameters that stay as they are
     unless asked for, such as "viscous_coefficient".
@@ -81,14 +92,31 @@ def identify(
     for name in free:
         if name not in known.free:
             raise SpecError(f"free must be one of {', '.join(known.free)} for {model}; got {shown(name)}.")
-    by = loads(template(known.template)) if spec is None else as_spec(spec)
-    if by.kind.name != known.kind:
-        raise SpecError(f'actuator.kind must be "{known.kind}" to identify {model}; got "{by.kind.name}".')
+    by, taken, given = _specified(known, spec)
     measured = known.read(data)
     found = known.fit(measured, by, level, free)
-    keys = {name: f"{known.section}.{name}" for name in found.parameters}
-    given = {name: by.values[key] for name, key in keys.items() if key in by.values}
-    return Identification(known, found, by, spec is not None, len(measured), known.taken(by), given)
+    values = {name: given[name] for name in found.parameters if name in given}
+    return Identification(known, found, by, spec is not None, len(measured), taken, values)
+
+
+def _specified(
+    model: Model, spec: Spec | Path | str | None
+) -> tuple[Spec | None, Mapping[str, tuple[float, str]], Mapping[str, Value]]:
+    """What a fit goes by: the specification, what it takes from it as known, and the values of its section by name."""
+    how = model.specified
+    if how is None:
+        if spec is not None:
+            raise SpecError(f"--spec must be left out: {model.name} is identified from its data alone.")
+        return None, {}, {}
+    by = loads(template(how.template)) if spec is None else as_spec(spec)
+    if by.kind.name != how.kind:
+        raise SpecError(f'actuator.kind must be "{how.kind}" to identify {model.name}; got "{by.kind.name}".')
+    start = f"{how.section}."
+    return (
+        by,
+        how.taken(by),
+        {key.removeprefix(start): value for key, value in by.values.items() if key.startswith(start)},
+    )
 
 
 def _read_friction(path: Path | str) -> Measurements:
@@ -104,25 +132,43 @@ def _contact_area(spec: Spec) -> Mapping[str, tuple[float, str]]:
     return {"contact area": (contact_area(spec.actuator), "area")}
 
 
-def _fit_friction(measured: Measurements, spec: Spec, level: float, free: Sequence[str]) -> Identified:
+def _fit_friction(measured: Measurements, spec: Spec | None, level: float, free: Sequence[str]) -> Identified:
     from fluxbore.design.friction_identification import identify_friction
     from fluxbore.design.friction_points import friction_points
     from fluxbore.design.pneumatics import piston_area
     from fluxbore.design.seal import contact_area
 
+    assert spec is not None  # the model has a template to go by
     points = friction_points(measured, piston_area=piston_area(spec.actuator))
     viscous = "viscous_coefficient" in free
     return identify_friction(points, contact_area(spec.actuator), level=level, viscous=viscous)
 
+
+def _read_spring(path: Path | str) -> Measurements:
+    from fluxbore.design.measurements import read_measurements
+    from fluxbore.design.spring_identification import COLUMNS, TIME
+
+    return read_measurements(path, COLUMNS, optional=(TIME,))
+
+
+def _spring(name: str, law: str, symbols: Mapping[str, str], free: tuple[str, ...] = ("zero_displacement",)) -> Model:
+    """A law of the magnetic spring, from displacement and force."""
+
+    def fit(measured: Measurements, _: Spec | None, level: float, free: Sequence[str]) -> Identified:
+        from fluxbore.design.spring_identification import identify_spring
+
+        return identify_spring(law, measured, level=level, free=free)
+
+    return Model(name, {**symbols, "zero_displacement": "x_0"}, free, "force", _read_spring, fit)
+
+
+_SINE = {"stall_force": "F_stall", "transfer_ratio": "h", "spring_constant": "F_stall/h", "pitch": "l_p"}
 
 MODELS = {
     model.name: model
     for model in (
         Model(
             name="friction",
-            kind="hybrid",
-            template="ipehla",
-            section="actuator.seal",
             symbols={
                 "static_coefficient": "mu_S",
                 "coulomb_coefficient": "mu_C",
@@ -135,9 +181,26 @@ MODELS = {
             free=("viscous_coefficient",),
             measured="force",
             read=_read_friction,
-            taken=_contact_area,
             fit=_fit_friction,
+            specified=Specified("hybrid", "ipehla", "actuator.seal", _contact_area),
         ),
+        _spring(
+            "magnetic-spring",
+            "hysteresis",
+            {
+                **_SINE,
+                "weight": "w",
+                "rising_rate": "psi + xi",
+                "falling_rate": "psi - xi",
+                "psi": "psi",
+                "xi": "xi",
+                "start_state": "x_s(0)",
+            },
+            ("zero_displacement", "start_state"),
+        ),
+        _spring("magnetic-spring-sine", "sine", _SINE),
+        _spring("magnetic-spring-linear", "linear", {"spring_constant": "K_s"}),
+        _spring("magnetic-spring-polynomial", "polynomial", {"k1": "k_1", "k3": "k_3", "k5": "k_5"}),
     )
 }
 """What `identify` knows, by name; another model is another line."""
