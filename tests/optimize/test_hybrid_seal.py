@@ -11,6 +11,7 @@ from seal_study import closed, seal_figures
 
 from fluxbore.design.errors import DesignError, SpecError
 from fluxbore.design.performance import FIGURES, Performance, to_mapping
+from fluxbore.design.seal_keys import FIN_KEYS, SEAL_KEYS
 from fluxbore.design.spec import Spec, load
 from fluxbore.design.study import Objective, Pareto
 from fluxbore.optimize.evaluate import evaluate
@@ -54,6 +55,17 @@ def test_the_lips_press_with_the_measured_force_at_the_prototypes_shape() -> Non
     assert contact_force(FIN) == pytest.approx(20.5, rel=5e-4)
     same = {"operating_point.pressure": "0.3 MPa gauge", "operating_point.speed": "5 mm/s"}
     assert figures(same).seal_friction == pytest.approx(figures(path="ipehla-fin").seal_friction, rel=5e-4)
+
+
+def test_what_the_fins_study_takes_for_the_unmeasured_says_why() -> None:
+    """Catches a default of the seal that stands in no specification, and would pass for published."""
+    given = {key for key in FIN.given if key.startswith(("actuator.seal.", "actuator.piston."))}
+    optional = {key.name for key in FIN.kind.keys if key.optional}
+    assert {key.name for key in (*SEAL_KEYS, *FIN_KEYS)} - optional <= given
+    published = {f"actuator.seal.{name}" for name in ("static_coefficient", "coulomb_coefficient", "stribeck_speed")}
+    published |= {"actuator.seal.viscous_coefficient"}
+    published |= {f"actuator.piston.fin_{name}" for name in ("outer_diameter", "inner_diameter", "length")}
+    assert given - published == given & {note.key for note in FIN.notes}
 
 
 def test_the_force_follows_the_fin_where_none_is_measured() -> None:
