@@ -28,7 +28,7 @@ class ForceSeries:
     @cached_property
     def wave(self) -> Floats:
         """m_n (1/m), (H,)."""
-        return 2 * np.pi / self.pitch * (2 * np.arange(len(self.amplitude)) + 1)
+        return np.asarray(2 * np.pi / self.pitch * (2.0 * np.arange(len(self.amplitude)) + 1))
 
     def force(self, displacement: ArrayLike) -> Floats:
         """N, that pulls the displacement (m) back to zero, of any shape."""

@@ -32,7 +32,8 @@ from fluxbore.design.bh_curve import MU_0
 from fluxbore.design.errors import DesignError
 from fluxbore.design.force_series import ForceSeries
 from fluxbore.design.lead_screw import HelicalMagnets, LeadScrew
-from fluxbore.design.radial_stack import REACH, Harmonics, RadialStack, held, shapes, solve
+from fluxbore.design.radial_stack import REACH, Harmonics, RadialStack, shapes, solve
+from fluxbore.design.units import format_quantity
 
 Floats = NDArray[np.float64]
 
@@ -44,7 +45,7 @@ TRANSLATOR, GAP, ROTOR = 0, 1, 2
 
 
 def force_series(screw: LeadScrew) -> ForceSeries:
-    """F(x_d) of the whole active length. Raises DesignError for a lead so long that no double holds its harmonics."""
+    """F(x_d) of the whole active length. Raises DesignError where `harmonics` does."""
     wave, order = harmonics(screw)
     field = solve(stack(screw), wave, order)
     amplitude = screw.active_length * wave * _coenergy(screw, field)
@@ -130,24 +131,21 @@ def stack(screw: LeadScrew) -> RadialStack:
     )
 
 
-def harmonics(screw: LeadScrew) -> tuple[Floats, Floats]:
-    """k_n (1/m) and p_n of the harmonics that reach across the gap, both (H,).
+def harmonics(screw: LeadScrew, across: bool = True) -> tuple[Floats, Floats]:
+    """k_n (1/m) and p_n, both (H,): of the harmonics that reach across the gap, or of `MOST_HARMONICS` without this.
 
-    Raises DesignError where the lead is so long beside the radius that doubles do not hold even the first.
+    Raises DesignError where the gap lets not even the first across.
     """
-    _, inner, outer, _ = screw.radii
     odd = 2.0 * np.arange(MOST_HARMONICS) + 1
-    wave, order = 2 * np.pi / screw.pitch * odd, screw.starts * odd
-    reaching = np.hypot(wave, order / outer) * (outer - inner) < REACH
-    reaching &= held(wave, order, screw.radii[0]) & held(wave, order, screw.radii[-1])
-    if not reaching[0]:
+    wave, order = np.asarray(2 * np.pi / screw.pitch * odd), np.asarray(screw.starts * odd)
+    decay = np.hypot(wave, order / screw.bore_radius)
+    if decay[0] * screw.gap >= REACH:
         raise DesignError(
-            f"actuator.gap must let the field across and actuator.pitch times actuator.starts must stay within some "
-            f"hundred radii; got a gap of {screw.gap / screw.pitch:.3g} pitches and a lead of "
-            f"{screw.starts * screw.pitch / outer:.3g} radii."
+            f"actuator.gap must let the field across, at most {format_quantity(REACH / float(decay[0]), 'length', 4)} "
+            f"at this pitch; got {format_quantity(screw.gap, 'length')}."
         )
-    count = int(np.argmin(reaching)) if not reaching.all() else len(reaching)
-    return wave[:count], order[:count]
+    kept = decay * screw.gap < REACH if across else np.full(MOST_HARMONICS, True)
+    return wave[kept], order[kept]
 
 
 def pattern(screw: LeadScrew, member: HelicalMagnets, count: int) -> Floats:

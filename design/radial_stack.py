@@ -13,8 +13,7 @@ the odd number n of the harmonic). Each layer is then an element with two unknow
 
 v_i being one at its own radius, zero at the other, and a solution between. K is closed in I_p and K_p, S takes one
 integral by Gauss' rule; the potentials at the radii are exact, with radial magnets of a remanence that does not change
-with r too. Bessel functions are scaled by their exponentials, so that nothing overflows at large k r; orders so high
-that I_p itself leaves the range of doubles (p above 200 with k r below p/10, say) come out as nan.
+with r too. `scaled_bessel` keeps the functions in the range of doubles at any order and argument.
 """
 
 from __future__ import annotations
@@ -25,6 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fluxbore.design.bh_curve import MU_0
+from fluxbore.design.scaled_bessel import scaled_bessel
 
 Floats = NDArray[np.float64]
 
@@ -105,11 +105,6 @@ def solve(stack: RadialStack, wave: Floats, order: Floats) -> Harmonics:
     return Harmonics(stack, wave, order, matrix)
 
 
-def held(wave: Floats, order: Floats, radius: float) -> NDArray[np.bool_]:
-    """(H,), whether doubles hold the Bessel functions of these harmonics at a radius (m)."""
-    return np.isfinite(_scaled(order, wave * radius)[0])
-
-
 def shapes(
     wave: Floats, order: Floats, inner: float, outer: float, radii: Floats, derivative: bool = False
 ) -> tuple[Floats, Floats]:
@@ -117,29 +112,26 @@ def shapes(
 
     derivative : their slopes by r (1/m) instead.
     """
-    k, p, thickness = wave[:, None], order[:, None], wave[:, None] * (outer - inner)
-    ia, ka, ib, kb = (column[:, None] for column in _ends(wave, order, inner, outer))
-    i, m = _slopes(p, k * radii) if derivative else _scaled(p, k * radii)
-    below, above = np.exp(-k * (radii - inner)), np.exp(-k * (outer - radii))
-    across = np.exp(-thickness)
-    denominator = ib * ka - ia * kb * across**2
-    scale = k if derivative else 1.0
-    at_inner = scale * (m * ib * below - i * kb * above * across) / denominator
-    at_outer = scale * (i * ka * above - m * ia * below * across) / denominator
+    k, p = wave[:, None], order[:, None]
+    a, b, at = scaled_bessel(p, k * inner), scaled_bessel(p, k * outer), scaled_bessel(p, k * radii)
+    i, m = (k * at.di, k * at.dk) if derivative else (at.i, at.k)
+    below, above, across = np.exp(a.s - at.s), np.exp(at.s - b.s), np.exp(a.s - b.s)
+    denominator = b.i * a.k - a.i * b.k * across**2
+    at_inner = (m * b.i * below - i * b.k * above * across) / denominator
+    at_outer = (i * a.k * above - m * a.i * below * across) / denominator
     return at_inner, at_outer
 
 
 def _element(wave: Floats, order: Floats, inner: float, outer: float) -> Floats:
     """K/mu of one layer (H, 2, 2): r v' at its radii, with the Wronskian I'K - IK' = 1/x off the diagonal."""
-    ia, ka, ib, kb = _ends(wave, order, inner, outer)
-    across = np.exp(-wave * (outer - inner))
-    denominator = ib * ka - ia * kb * across**2
-    rise_a, fall_a = _slopes(order, wave * inner)
-    rise_b, fall_b = _slopes(order, wave * outer)
-    diagonal_a = wave * inner * (-fall_a * ib + rise_a * kb * across**2) / denominator
-    diagonal_b = wave * outer * (rise_b * ka - fall_b * ia * across**2) / denominator
+    x, y = wave * inner, wave * outer
+    a, b = scaled_bessel(order, x), scaled_bessel(order, y)
+    across = np.exp(a.s - b.s)
+    denominator = b.i * a.k - a.i * b.k * across**2
+    at_inner = x * (a.di * b.k * across**2 - a.dk * b.i) / denominator
+    at_outer = y * (b.di * a.k - b.dk * a.i * across**2) / denominator
     coupling = -across / denominator
-    return np.stack([diagonal_a, coupling, coupling, diagonal_b], axis=1).reshape(-1, 2, 2)
+    return np.stack([at_inner, coupling, coupling, at_outer], axis=1).reshape(-1, 2, 2)
 
 
 def _source(wave: Floats, order: Floats, inner: float, outer: float) -> Floats:
@@ -156,31 +148,11 @@ def _source(wave: Floats, order: Floats, inner: float, outer: float) -> Floats:
 
 def _axis(wave: Floats, order: Floats, radius: float) -> Floats:
     """r phi'/phi (H,) of the solution that is finite on the axis."""
-    return np.asarray(wave * radius * _slopes(order, wave * radius)[0] / _scaled(order, wave * radius)[0])
+    found = scaled_bessel(order, wave * radius)
+    return np.asarray(wave * radius * found.di / found.i)
 
 
 def _infinity(wave: Floats, order: Floats, radius: float) -> Floats:
     """-r phi'/phi (H,) of the solution that vanishes far out."""
-    return np.asarray(-wave * radius * _slopes(order, wave * radius)[1] / _scaled(order, wave * radius)[1])
-
-
-def _ends(wave: Floats, order: Floats, inner: float, outer: float) -> tuple[Floats, Floats, Floats, Floats]:
-    return *_scaled(order, wave * inner), *_scaled(order, wave * outer)
-
-
-def _scaled(order: Floats, x: Floats) -> tuple[Floats, Floats]:
-    """exp(-x) I_p(x) and exp(x) K_p(x); nan where either leaves the range of doubles."""
-    from scipy.special import ive, kve
-
-    order = np.where(order < np.finfo(float).tiny, 0.0, order)  # of subnormal orders the library makes nan
-    i, k = np.asarray(ive(order, x)), np.asarray(kve(order, x))
-    lost = (i < np.finfo(float).tiny) | ~np.isfinite(k)
-    return np.where(lost, np.nan, i), np.where(lost, np.nan, k)
-
-
-def _slopes(order: Floats, x: Floats) -> tuple[Floats, Floats]:
-    """exp(-x) I_p'(x) and exp(x) K_p'(x), each from terms of one sign: I_{p+1} + p/x I_p, -(K_{p-1} + p/x K_p)."""
-    from scipy.special import ive, kve
-
-    i, k = _scaled(order, x)
-    return np.asarray(ive(order + 1, x) + order / x * i), np.asarray(-(kve(order - 1, x) + order / x * k))
+    found = scaled_bessel(order, wave * radius)
+    return np.asarray(-wave * radius * found.dk / found.k)

@@ -19,7 +19,8 @@ _GAUSS = np.polynomial.legendre.leggauss(4)
 
 
 class RadialElements:
-    """`count` elements in each layer; for open ends as many again, graded, out to 25 decay lengths or in to the axis. Orders are whole."""
+    """`count` elements in each layer; an open end has four times as many, graded, out to 25 decay lengths or in to the
+    axis. Orders are whole."""
 
     def __init__(self, stack: RadialStack, wave: float, order: float, count: int) -> None:
         self.inner_iron = stack.inner_iron

@@ -11,7 +11,7 @@ from scipy.integrate import quad
 from scipy.special import i0, i1, k0, k1
 
 from fluxbore.design.bh_curve import MU_0
-from fluxbore.design.radial_stack import RadialStack, held, shapes, solve
+from fluxbore.design.radial_stack import RadialStack, shapes, solve
 
 RADII = (14.95e-3, 17.45e-3, 18.25e-3, 20.75e-3)
 WAVE = 2 * np.pi / (36e-3 / 7)
@@ -143,9 +143,16 @@ def test_slopes_are_those_of_the_shapes(wave: float, order: float, radius: float
 
 
 def test_nothing_overflows_at_large_arguments() -> None:
-    """k r = 2e5, where I itself is e^200000: still the planar field. And orders beyond doubles are told."""
+    """k r = 2e5, where I itself is e^200000: still the planar field."""
     stack = RadialStack((1000.0, 1002.5, 1003.3, 1005.8), (1.0, 1.0, 1.0), True, True)
     expected = 1000.0 / (MU_0 * 200.0) * np.exp(-160.0) / 2
     assert one(stack, 200.0, 0.0, 0, 2) == pytest.approx(expected, rel=5e-3)
     assert one(stack, 200.0, 3.0, 0, 2) == pytest.approx(expected, rel=5e-3)
-    assert held(np.array([1e-3, 1.0]), np.array([1000.0, 1.0]), 1.0).tolist() == [False, True]
+
+
+@pytest.mark.parametrize("inner", [True, False])
+def test_nothing_underflows_at_large_orders(inner: bool) -> None:
+    """A coupling of 500 pole pairs, whose I_p(k r) is below 1e-600: by finite elements."""
+    stack = RadialStack((90e-3, 90.5e-3, 90.6e-3, 91e-3), (1.05, 1.0, 1.05), inner, not inner)
+    exact = one(stack, 400.0, 500.0, 0, 2)
+    assert exact == pytest.approx(RadialElements(stack, 400.0, 500, 60).interaction(0, 2), rel=1e-6)
