@@ -1,6 +1,6 @@
 """The torque that disturbs a rotor, from its current and speed through a first-order filter.
 
-Ohnishi, Shibata and Murakami (1996), as the RotLin paper's position control has it:
+After Ohnishi and others, as the RotLin paper's position control has it (Sec. IV-C, Fig. 22):
 
     d = g_D/(s + g_D) (K_t i + g_D J omega) - g_D J omega  =  g_D/(s + g_D) (K_t i - J omega')
 

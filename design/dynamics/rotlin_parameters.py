@@ -56,6 +56,9 @@ class RotLinParameters:
     friction_sharpness: float = _published(200.0, "gamma_2", "s/m")
     friction_jump: float = _published(0.05, "gamma_3", "N")
     control_period: float = _published(100e-6, "T", "s", "Sec. IV, carrier frequency 10 000 Hz")
+    position_count: float = _published(
+        1e-6, "x count", "m", "Sec. IV, encoder RGH24X; Renishaw's data sheet L-9517-0166 gives it 1 um"
+    )
     guide_friction: float = _assumed(
         0.85, "F_C", "N", "the true friction is not published; gamma_1 + gamma_3 is what the controller takes it for"
     )
@@ -67,9 +70,6 @@ class RotLinParameters:
         "sigma_1",
         "N s/m",
         "3 % of critical on the bristles: they ring down, and gain no work below 4 F_C/sigma_1 = 0.11 m/s",
-    )
-    position_count: float = _assumed(
-        1e-6, "x count", "m", "the paper names the encoder's type, not its resolution; 1 um is common for it"
     )
     angle_count: float = _assumed(
         2 * math.pi / 65536,

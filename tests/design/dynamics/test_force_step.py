@@ -97,6 +97,28 @@ def test_a_fast_controller_is_the_linear_theory(observer_speed):
     assert coarse / fine == pytest.approx(2, rel=0.1)
 
 
+@pytest.mark.parametrize("observer_speed, stable", [(UNFILTERED, True), (FILTERED, False)])
+def test_a_stiff_wall_makes_the_filtered_observer_ring_up(observer_speed, stable):
+    """The ringing pole's real part, read off the sampled loop and carried to a period of zero, is the linear one."""
+    p = PARAMETERS
+    wall = replace(
+        FREE,
+        environment=replace(STAND.environment, stiffness=5e6),
+        spring=LinearSpring(p.stall_force / p.transfer_ratio),
+    )
+
+    def growth(period):
+        controller = replace(KNOWING_NONE, observer_speed=observer_speed, period=period)
+        run = simulate_step(wall, controller, 1.0, 4.0)
+        early, late = (np.ptp(run.force[(run.time > start) & (run.time < start + 0.2)]) for start in (0.8, 3.6))
+        return math.log(late / early) / 2.8
+
+    coarse, fine = growth(100e-6), growth(50e-6)
+    pole = dominant_pole(wall.plant, wall.environment, CONTROLLER, observer_speed=observer_speed)
+    assert (coarse < 0) == (fine < 0) == (pole.real < 0) == stable
+    assert 2 * fine - coarse == pytest.approx(pole.real, abs=0.01)
+
+
 def test_pushing_and_pulling_are_alike():
     forward, backward = (simulate_step(EXACT, CONTROLLER, force, 0.5) for force in (80.0, -80.0))
     assert -backward.force == pytest.approx(forward.force, rel=1e-9, abs=1e-9)

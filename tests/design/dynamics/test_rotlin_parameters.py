@@ -23,7 +23,6 @@ def test_every_number_has_a_source_or_a_reason():
         "guide_friction",
         "guide_stiffness",
         "guide_damping",
-        "position_count",
         "angle_count",
     }
 
