@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fluxbore.design.bh_curve import MU_0
-from fluxbore.design.scaled_bessel import scaled_bessel
+from fluxbore.design.scaled_bessel import scaled_bessel, scaled_slopes
 
 Floats = NDArray[np.float64]
 
@@ -113,8 +113,9 @@ def shapes(
     derivative : their slopes by r (1/m) instead.
     """
     k, p = wave[:, None], order[:, None]
-    a, b, at = scaled_bessel(p, k * inner), scaled_bessel(p, k * outer), scaled_bessel(p, k * radii)
-    i, m = (k * at.di, k * at.dk) if derivative else (at.i, at.k)
+    a, b = scaled_bessel(p, k * inner), scaled_bessel(p, k * outer)
+    at = scaled_slopes(p, k * radii) if derivative else scaled_bessel(p, k * radii)
+    i, m = (k * at.i, k * at.k) if derivative else (at.i, at.k)
     below, above, across = np.exp(a.s - at.s), np.exp(at.s - b.s), np.exp(a.s - b.s)
     denominator = b.i * a.k - a.i * b.k * across**2
     at_inner = (m * b.i * below - i * b.k * above * across) / denominator
@@ -126,10 +127,11 @@ def _element(wave: Floats, order: Floats, inner: float, outer: float) -> Floats:
     """K/mu of one layer (H, 2, 2): r v' at its radii, with the Wronskian I'K - IK' = 1/x off the diagonal."""
     x, y = wave * inner, wave * outer
     a, b = scaled_bessel(order, x), scaled_bessel(order, y)
+    da, db = scaled_slopes(order, x), scaled_slopes(order, y)
     across = np.exp(a.s - b.s)
     denominator = b.i * a.k - a.i * b.k * across**2
-    at_inner = x * (a.di * b.k * across**2 - a.dk * b.i) / denominator
-    at_outer = y * (b.di * a.k - b.dk * a.i * across**2) / denominator
+    at_inner = x * (da.i * b.k * across**2 - da.k * b.i) / denominator
+    at_outer = y * (db.i * a.k - db.k * a.i * across**2) / denominator
     coupling = -across / denominator
     return np.stack([at_inner, coupling, coupling, at_outer], axis=1).reshape(-1, 2, 2)
 
@@ -148,11 +150,11 @@ def _source(wave: Floats, order: Floats, inner: float, outer: float) -> Floats:
 
 def _axis(wave: Floats, order: Floats, radius: float) -> Floats:
     """r phi'/phi (H,) of the solution that is finite on the axis."""
-    found = scaled_bessel(order, wave * radius)
-    return np.asarray(wave * radius * found.di / found.i)
+    x = wave * radius
+    return np.asarray(x * scaled_slopes(order, x).i / scaled_bessel(order, x).i)
 
 
 def _infinity(wave: Floats, order: Floats, radius: float) -> Floats:
     """-r phi'/phi (H,) of the solution that vanishes far out."""
-    found = scaled_bessel(order, wave * radius)
-    return np.asarray(-wave * radius * found.dk / found.k)
+    x = wave * radius
+    return np.asarray(-x * scaled_slopes(order, x).k / scaled_bessel(order, x).k)

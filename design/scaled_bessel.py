@@ -1,9 +1,9 @@
 """Modified Bessel functions of real order without their exponentials, over all orders and arguments.
 
-    I_p(x) = e^{+s} i,   K_p(x) = e^{-s} k,   I_p'(x) = e^{+s} di,   K_p'(x) = e^{-s} dk
+    I_p(x) = e^{+s} i,   K_p(x) = e^{-s} k,   and their slopes I_p'(x) and K_p'(x) with the same s
     s(p, x) = w + p ln(x/(p + w)),   w = sqrt(p^2 + x^2)
 
-s is the exponent of Debye's expansions for large orders (DLMF 10.41.3 to 10.41.6), so that i, k, di, dk stay ordinary
+s is the exponent of Debye's expansions for large orders (DLMF 10.41.3 to 10.41.6), so that i and k stay ordinary
 numbers where I_p and K_p themselves leave the range of doubles, upwards for large x or downwards for large p. Ratios
 across a layer are then differences of s. The values are `scipy.special.ive` and `kve`, to their 14 digits or so; where
 these are out of range, which takes orders above 100, they are the expansions with `TERMS` terms, to 1e-12.
@@ -29,44 +29,62 @@ FAINTEST = 1e-250
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ScaledBessel:
-    """At orders p and arguments x, all of one shape."""
+    """At orders p and arguments x, all of one shape: the functions, or their slopes by x."""
 
     s: Floats
     i: Floats
     k: Floats
-    di: Floats  # by x
-    dk: Floats
 
 
 def scaled_bessel(order: Floats, x: Floats) -> ScaledBessel:
-    """Of p >= 0 and x > 0, which broadcast."""
+    """I_p(x) and K_p(x) of p >= 0 and x > 0, which broadcast."""
     from scipy.special import ive, kve
 
-    p, x = np.broadcast_arrays(np.where(order < np.finfo(float).tiny, 0.0, order), x)  # of subnormal p ive makes nan
+    p, x, w, s = _exponent(order, x)
+    i, k = _rescaled(p, x, s, np.asarray(ive(p, x)), np.asarray(kve(p, x)))
+    far = np.isnan(i)
+    if np.any(far):
+        up, down = _debye(p[far], w[far], 0)
+        i[far], k[far] = up / np.sqrt(2 * np.pi * w[far]), down * np.sqrt(np.pi / (2 * w[far]))
+    return ScaledBessel(s, i, k)
+
+
+def scaled_slopes(order: Floats, x: Floats) -> ScaledBessel:
+    """I_p'(x) and K_p'(x) of p >= 0 and x > 0, which broadcast."""
+    from scipy.special import ive, kve
+
+    p, x, w, s = _exponent(order, x)
+    # From terms of one sign each: I_{p+1} + p/x I_p, -(K_{p-1} + p/x K_p).
+    with np.errstate(over="ignore"):
+        first, second = ive(p + 1, x) + p / x * ive(p, x), -(kve(p - 1, x) + p / x * kve(p, x))
+    i, k = _rescaled(p, x, s, np.asarray(first), np.asarray(second))
+    far = np.isnan(i)
+    if np.any(far):
+        up, down = _debye(p[far], w[far], 1)
+        i[far] = up * np.sqrt(w[far] / (2 * np.pi)) / x[far]
+        k[far] = -down * np.sqrt(np.pi * w[far] / 2) / x[far]
+    return ScaledBessel(s, i, k)
+
+
+def _exponent(order: Floats, x: Floats) -> tuple[Floats, Floats, Floats, Floats]:
+    """p, x, w and s, of one shape; of subnormal orders the library would make nan."""
+    p, x = np.broadcast_arrays(np.where(order < np.finfo(float).tiny, 0.0, order), x)
     w = np.hypot(p, x)
-    s = w + p * np.log(x / (p + w))
-    i0, k0 = ive(p, x), kve(p, x)
-    high = ~((i0 > FAINTEST) & np.isfinite(k0) & (x - s < 500))
-    with np.errstate(over="ignore", invalid="ignore"):
-        up, down = np.exp(x - s), np.exp(s - x)
-        # Slopes from terms of one sign each: I_{p+1} + p/x I_p, -(K_{p-1} + p/x K_p).
-        values = up * i0, down * k0, up * (ive(p + 1, x) + p / x * i0), -down * (kve(p - 1, x) + p / x * k0)
-    i, k, di, dk = (np.asarray(value) for value in values)
-    if np.any(high):
-        i, k, di, dk = (np.where(high, b, a) for a, b in zip((i, k, di, dk), _debye(p, x, w, high), strict=True))
-    return ScaledBessel(np.asarray(s), i, k, di, dk)
+    return p, x, w, np.asarray(w + p * np.log(x / (p + w)))
 
 
-def _debye(p: Floats, x: Floats, w: Floats, where: NDArray[np.bool_]) -> tuple[Floats, Floats, Floats, Floats]:
-    """i, k, di, dk by the expansions, meant for large orders; elsewhere, where the mask is off, of an order of one."""
-    p = np.where(where, p, 1.0)
-    t = np.where(where, p / w, 0.5)
-    u, v = _polynomials()
-    value = [sum(sign**j * u[j](t) / p**j for j in range(TERMS)) for sign in (1, -1)]
-    slope = [sum(sign**j * v[j](t) / p**j for j in range(TERMS)) for sign in (1, -1)]
-    i, k = value[0] / np.sqrt(2 * np.pi * w), value[1] * np.sqrt(np.pi / (2 * w))
-    di, dk = slope[0] * np.sqrt(w / (2 * np.pi)) / x, -slope[1] * np.sqrt(np.pi * w / 2) / x
-    return i, k, di, dk
+def _rescaled(p: Floats, x: Floats, s: Floats, i: Floats, k: Floats) -> tuple[Floats, Floats]:
+    """From e^{-x} I and e^x K to e^{-s} I and e^s K; nan where they are too faint or too large for it."""
+    held = (i > FAINTEST) & np.isfinite(k)
+    change = np.where(held, x - s, 0.0)
+    return np.where(held, i * np.exp(change), np.nan), np.where(held, k * np.exp(-change), np.nan)
+
+
+def _debye(p: Floats, w: Floats, slopes: int) -> tuple[Floats, Floats]:
+    """The expansions' sums, of I and of K, for large orders p."""
+    terms = [polynomial(p / w) / p**j for j, polynomial in enumerate(_polynomials()[slopes])]
+    even, odd = sum(terms[::2]), sum(terms[1::2])
+    return np.asarray(even + odd), np.asarray(even - odd)
 
 
 @cache

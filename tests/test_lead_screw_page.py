@@ -1,9 +1,11 @@
 """The page on the magnetic lead screw: its script runs, and the figures that it quotes are the program's."""
 
+import math
 import re
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 from lead_screws import ARCS, PITCH, table_i
 
@@ -29,6 +31,7 @@ from fluxbore.design.lead_screw_figures import (
     sudden_load_limit,
     transfer_ratio,
 )
+from fluxbore.design.step_ripple import force_ripple, stepped_series
 
 PAGE = (Path(__file__).parent.parent / "docs" / "lead_screw.md").read_text(encoding="utf-8")
 
@@ -114,6 +117,22 @@ def test_other_magnets_and_readings() -> None:
         f"K_2/K_1 = {100 * harmonic_ratios(replace(screw, pitch=2 * PITCH, translator=wide, rotor=wide))[0]:.1f} %"
         in text
     )
+
+
+def test_ripple() -> None:
+    """Six arcs against six and against eight: of the force at the stall, and of the torque at rest."""
+    text = " ".join(PAGE.split())
+    quoted = []
+    for count in (6, 8):
+        arcs = replace(ARCS, per_turn=count, angle=2 * math.pi / count)
+        screw = table_i()
+        screw = replace(screw, translator=replace(screw.translator, arcs=ARCS), rotor=replace(screw.rotor, arcs=arcs))
+        stall = force_series(screw).peak[1]
+        cogging = np.max(stepped_series(screw).torque(0.0, np.linspace(0, math.pi / 3, 600))) / (screw.h * stall)
+        quoted += [100 * force_ripple(screw, PITCH / 4) / stall, 100 * float(cogging)]
+    assert f"by {quoted[0]:.1f} % peak to peak" in text
+    assert f"cog with up to {quoted[1]:.0f} % of its largest torque" in text
+    assert f"it is {quoted[2]:.2f} % and {quoted[3]:.1f} %" in text
 
 
 def test_its_script_runs(capsys: pytest.CaptureFixture[str]) -> None:

@@ -71,7 +71,7 @@ def test_sudden_load() -> None:
                 lambda t, y, load=share * limit, law=spring: [y[1], (load - float(law.force(y[0]))) / 2.55],
                 (0.0, 0.2),
                 [0.0, 0.0],
-                rtol=1e-9,
+                rtol=1e-8,
                 atol=1e-12,
             )
             reached.append(float(np.max(found.y[0])))
