@@ -17,7 +17,7 @@ pitch: the last pole of each end has one neighbour only. The space between magne
 arcs, is taken as permeable as the magnets, a fault of the order (mu_r - 1) times its share. Arcs enter by their share
 of the circumference and, where they climb in steps, by the mean over a step, sin(n s beta/2)/(n s beta/2) for s starts
 and the angle beta; what the steps add beyond the mean meets no partner in the other member, and makes no force, unless
-that climbs in steps too.
+that climbs in steps too (`step_ripple`).
 """
 
 from __future__ import annotations
@@ -80,7 +80,7 @@ def engagement_force(screw: LeadScrew, displacement: ArrayLike) -> Floats:
 
     W'/L of the engaged members less that of each alone, per metre of overlap: the attraction of magnets, which the
     displacement modulates, and of magnets to the other member's iron, which it does not. Free of the fringe at the
-    ends: the mean over a pitch or so of overlap.
+    ends: the mean over a pitch or so of overlap. Of arcs in steps their mean alone counts.
     """
     wave, order = harmonics(screw)
     engaged = stack(screw)
