@@ -12,12 +12,14 @@ from friction_identification import NOISE, RUN_SEEDS, TRIALS, TRUTH, estimates, 
 pytestmark = pytest.mark.full
 
 
-def test_parameters_within_five_per_cent_and_intervals_that_cover_in_200_trials() -> None:
-    """Catches an estimator that is worse than the data allow, and intervals that are too narrow or too wide."""
+@pytest.mark.parametrize("both", [True, False], ids=["192 points", "96 points"])
+def test_parameters_within_five_per_cent_and_intervals_that_cover_in_200_trials(both: bool) -> None:
+    """Catches an estimator that is worse than the data allow, and intervals that are too narrow or too wide. With one
+    point for each run the bound of Cramer and Rao leaves v_s beyond 5 % in one trial of five."""
     assert (TRIALS, NOISE) == (200, 0.1)
-    for name, tally in trials().items():
+    for name, tally in trials(both=both).items():
         assert tally.error <= 0.05, name
-        assert tally.within >= 0.9, name
+        assert tally.within >= (0.9 if both else 0.75), name
         assert 0.90 * TRIALS <= tally.covered <= 0.98 * TRIALS, name
 
 
