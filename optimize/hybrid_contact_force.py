@@ -51,7 +51,9 @@ LIMITS = (
     "Of the test stand the paper publishes the frequencies, the target forces, ten round trips and the encoder. "
     "What the other parameters are calibrated to cannot be predicted by them: P-P, P-E and the counts of cells show "
     "that one plant can reproduce the measurements, not that it is theirs.",
-    "P-N follows from equation (6) and Table IV at the inferred stroke, and is a prediction.",
+    "P-N follows from equation (6) and Table IV at the inferred stroke, and nothing is fitted to it. Table IV was "
+    "identified with this disturbance on this stand, so P-N checks that (6) is read as meant, and predicts no other "
+    "stand.",
     "The paper gives its loops and its errors of single trials as pictures only; they are compared by shape and sign.",
     "Under P-P at 0 N the paper has no measurement, as its air could not pull; the simulated trials are not counted.",
     "Table III's rounded inputs give a deformed length of 0.412 mm where the paper prints 0.407 mm. Its contact "
