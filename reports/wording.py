@@ -27,11 +27,9 @@ _UNIT_SIGNS = {
     "ohm": "Ω",
     "degC": "°C",
     "1/mm^2": "mm⁻²",
-    "mm^2": "mm²",
-    "mm^3": "mm³",
-    "um": "µm",
     "1": "",
 }
+"""Units that the page writes another way; `_sign` knows powers and micrometres in all others."""
 
 _GREEK = {"tau": "τ", "mu": "µ", "lambda": "λ", "Delta": "Δ", "pi": "π"}
 
@@ -101,7 +99,7 @@ def scale(dimension: str, values: Iterable[float | None], digits: int = DIGITS) 
         name = "kg"
     unit = table.units[name]
     size = abs((smallest - unit.offset) / unit.factor)
-    return Scale(_UNIT_SIGNS.get(name, name), unit.factor, unit.offset, _decimals(size, digits))
+    return Scale(_sign(name), unit.factor, unit.offset, _decimals(size, digits))
 
 
 def key_scale(spec: Spec, name: str, values: Iterable[float | None] = ()) -> Scale:
@@ -140,7 +138,13 @@ def subject_measure(spec: Spec, subject: str, size: float = 1.0) -> Measure:
 
 def unit_sign(unit: Measure) -> str:
     """The unit as the page writes it; empty for plain numbers."""
-    return _UNIT_SIGNS.get(unit.unit, unit.unit)
+    return _sign(unit.unit)
+
+
+def _sign(name: str) -> str:
+    """A unit of `fluxbore.design.units` as it is printed: ``kN/m³`` and ``µm/km`` for kN/m^3 and um/km."""
+    printed = re.sub(r"\bum\b", "µm", name.replace("^2", "²").replace("^3", "³"))
+    return _UNIT_SIGNS.get(name, printed)
 
 
 def difference(unit: Measure, value: float, digits: int = 3, *, signed: bool = False) -> str:
