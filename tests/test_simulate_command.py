@@ -343,3 +343,15 @@ def test_other_designs_stand_on_the_same_test_stand():
     design = {key: value for key, value in other.values.items() if not key.startswith("benchmark.")}
     assert {key: value for key, value in moved.values.items() if not key.startswith("benchmark.")} == design
     assert design["actuator.mover.ring_width"] == 1.5e-3
+
+
+def test_tests_and_trends_are_told_in_words(toy):
+    """Catches names of JSON in a table for people, and a row of numbers that does not say what they are of."""
+    from fluxbore.simulation_messages import simulation_text
+
+    result = fluxbore.simulate("spec.toml", "toy", seeds=1, workers=1)
+    figures = {**result.run.figures, "friedman_p": 0.5, "trend": {"P-N": {"20": -1.0}}}
+    lines = simulation_text(replace(result, run=replace(result.run, figures=figures))).splitlines()
+    assert "Friedman's p  0.5" in lines
+    start = lines.index("rank correlation of error and speed, by target (N)  20")
+    assert lines[start + 1].split() == ["P-N", "-1"]

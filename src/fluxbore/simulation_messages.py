@@ -13,6 +13,15 @@ from fluxbore.value_text import route
 
 DIGITS = 4
 
+WORDS = {
+    "friedman_p": "Friedman's p",
+    "rank_sums": "rank sums",
+    "post_hoc": "Wilcoxon",
+    "p_corrected": "p, Bonferroni",
+    "trend": "rank correlation of error and speed, by target (N)",
+}
+"""Names of figures, in JSON and Python, that read otherwise in words."""
+
 
 def simulation_plain(result: BenchmarkResult) -> dict[str, Any]:
     """As figures.json has it, and the files."""
@@ -63,7 +72,7 @@ def _rest(shown: Sequence[Published], figures: Mapping[str, Any]) -> list[list[t
     told = {item.path[0] for item in shown}
     left = {name: value for name, value in finite(figures).items() if name not in told}
     nested = {name: value for name, value in left.items() if _records(value)}
-    plain: list[tuple[str, ...]] = [(name, _plain(value)) for name, value in left.items() if name not in nested]
+    plain: list[tuple[str, ...]] = [(_word(name), _plain(value)) for name, value in left.items() if name not in nested]
     grids = [_grid(name, _records(value)) for name, value in nested.items()]
     return [plain, *grids] if plain else grids
 
@@ -79,7 +88,11 @@ def _records(value: Any) -> dict[str, Mapping[str, Any]]:
 def _grid(name: str, rows: Mapping[str, Mapping[str, Any]]) -> list[tuple[str, ...]]:
     columns = list(dict.fromkeys(column for row in rows.values() for column in row))
     body = [(label, *(_plain(row.get(column)) for column in columns)) for label, row in rows.items()]
-    return [(name, *columns), *body]
+    return [(_word(name), *(_word(column) for column in columns)), *body]
+
+
+def _word(name: str) -> str:
+    return WORDS.get(name, name)
 
 
 def _seeds(published: Sequence[Published], run: DesignRun) -> list[tuple[str, ...]]:
