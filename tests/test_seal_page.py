@@ -73,3 +73,11 @@ def test_its_commands_run(
     status = main([*words, "--json"])
     found = json.loads(capsys.readouterr().out)
     assert status in ((0,) if words[0] == "evaluate" else (0, 3)), found
+
+
+def test_the_front_page_quotes_this_page():
+    """Catches the README's fin left behind when the optimum moves."""
+    text = (TOP / "README.md").read_text(encoding="utf-8")
+    (told,) = re.findall(r"([0-9.]+) N of friction at 0\.3 MPa\s+for the prototype's ([0-9.]+) N", text)
+    (row,) = re.findall(r"^\| `seal_friction` \(N\) \| ([0-9.]+) \| \*\*([0-9.]+)\*\*", PAGE, re.MULTILINE)
+    assert told == row[::-1]
