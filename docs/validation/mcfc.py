@@ -73,6 +73,15 @@ CHANGES: tuple[tuple[str, dict[str, float]], ...] = (
 )
 """Sensitivities; force constant and mass as multiples of their own values."""
 
+STROKES = (0.9e-3, 1.05e-3, 1.2e-3)
+"""m: what the paper's window and speeds leave open."""
+
+RECALIBRATED: tuple[tuple[str, dict[str, float]], ...] = (
+    ("bristles of 50 N/mm", {"bristle_stiffness": 5e4}),
+    ("bristles of 200 N/mm", {"bristle_stiffness": 2e5}),
+)
+"""Other assumptions, for which the two times are sought once more."""
+
 
 def runner() -> tuple[Run, ForceMap]:
     """Simulations of the prototype over the finite elements' force map, and that map."""
@@ -149,6 +158,29 @@ Nelder and Mead's search in the logarithms from {start}. After {simulations} sim
 values are assumed, with the reason beside each in the example."""
 
 
+def recalibration(run: Run) -> str:
+    """The two times under other assumptions, what is left, and the statistics that they give."""
+    rows = []
+    for label, changes in RECALIBRATED:
+
+        def changed(seed: int, more: Mapping[str, float], changes: Mapping[str, float] = changes) -> Simulation:
+            return run(seed, {**changes, **more})
+
+        fitted, left, _ = calibrate(changed)
+        times = " | ".join(f"{fitted[name] * 1e3:.3g}" for name in START)
+        rows.append(row(f"{label} | {times} | {left:.2f}", changed(1, fitted)))
+    return "\n".join(rows)
+
+
+def untuned() -> str:
+    """The median of (6) alone at each of the strokes."""
+    medians = [
+        float(np.median(list(untuned_rmse(SPEC.actuator, {**SPEC.values, SECTION + "stroke": stroke}).values())))
+        for stroke in STROKES
+    ]
+    return ", ".join(f"{median:.3f} N at {stroke * 1e3:g} mm" for stroke, median in zip(STROKES, medians, strict=True))
+
+
 def row(label: str, simulation: Simulation) -> str:
     """Medians, counts and tests of one simulation as a row."""
     figures = simulation.figures
@@ -189,7 +221,6 @@ def page() -> str:
     ).stdout.strip()
     run, force_map = runner()
     seeds = [run(seed, {}) for seed in SEEDS]
-    untuned = float(np.median(list(untuned_rmse(SPEC.actuator, SPEC.values).values())))
     five = "\n".join(row(str(seed), found) for seed, found in zip(SEEDS, seeds, strict=True))
     changed = "\n".join(row(label, run(1, changes)) for label, changes in CHANGES)
     cells = "\n".join(
@@ -198,6 +229,7 @@ def page() -> str:
     )
     header = "| median P-N | P-P | P-E | chi2 | P-E lowest | P-P below P-N | p P-N/P-P | p P-N/P-E | p P-P/P-E |"
     rule = "|---|---|---|---|---|---|---|---|---|---|"
+    again = "|---|---|---|---|---|---|---|---|---|---|---|---|---|"
     return f"""# The contact-force benchmark: published statistics and ours
 
 Nakata and Noda, "Fusion Hybrid Linear Actuator", IEEE/ASME Trans. Mechatronics 28 (2023), Sec. IV. Written by
@@ -206,8 +238,11 @@ Medians in N over 36 cells (20, 40 and 60 N at twelve frequencies); p after Wilc
 
 ## Without a plant
 
-|f_k| of equation (6) with Table IV at the speed 2 f stroke, stroke 1.05 mm: median **{untuned:.3f} N** for P-N, where
-the paper has 3.13. No parameter but the inferred stroke is in it.
+The median over the 36 cells of |f_k| of equation (6) with Table IV at the speed 2 f stroke, for P-N, where the paper
+has 3.13 N: {untuned()}.
+The example's stroke of {SPEC.number(SECTION + "stroke") * 1e3:g} mm is inferred. Nothing in it is fitted to the error;
+but the authors identified Table IV with this disturbance on this stand, so it checks that (6) is read as they meant it,
+and predicts nothing of another stand.
 
 ## Five seeds
 
@@ -225,6 +260,18 @@ Spearman's correlation of error with mean speed, the weakest of the five seeds, 
 ## The calibration
 
 {calibration(run)}
+
+## The same calibration under other assumptions
+
+One assumption changed, the two times sought again in the same way. Times in ms; left is the disagreement, to be held
+against that above.
+
+| change | filter | valve lag | left {header}
+{again}
+{recalibration(run)}
+
+Where as little is left as above or less, the published numbers do not tell these stands apart: the two times belong to
+the assumptions that they were found under, and are no measurement of the authors' valve and filter.
 
 ## Sensitivity
 
