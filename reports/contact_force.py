@@ -28,7 +28,9 @@ WHY = (
 LEAST = 5e-4
 """N, below which two medians are shown as the same."""
 
-UNMARKED = "published, or what is taken where nothing is given: docs/mcfc.md"
+GIVEN = "as the specification has it, without a mark"
+
+DEFAULT = "published, or what is taken where nothing is given: docs/mcfc.md"
 
 
 def section(result: BenchmarkResult) -> dict[str, Any]:
@@ -163,13 +165,14 @@ def parameters(spec: Spec, prefix: str) -> Table:
         if not key.name.startswith(prefix) or key.name not in spec.values:
             continue
         value, note = spec.values[key.name], notes.get(key.name)
+        unmarked = DEFAULT if value == key.default else GIVEN
         rows.append(
             (
                 Cell(capital(key.leaf.replace("_", " "))),
                 Cell(capital(key.doc)),
                 Cell(_value(spec, key.name, value)),
                 Cell(note.status if note is not None else DASH),
-                Cell(*((note.reason,) if note is not None else (UNMARKED, "muted"))),
+                Cell(*((note.reason,) if note is not None else (unmarked, "muted"))),
             )
         )
     head = ("Parameter", "What it is", "Value", "Status", "Reason")

@@ -23,6 +23,7 @@ from fluxbore.reports.contact_force_curves import significance
 from fluxbore.reports.content import ReportContent
 from fluxbore.reports.page import render
 from fluxbore.reports.tables import Table
+from fluxbore.reports.wording import DASH
 
 SPEC = loads(template("ipehla"), {"benchmark.mcfc.valve_lag": "0.2 s"})
 
@@ -125,7 +126,7 @@ def test_trends_and_pairs_have_their_signs(alone):
 
 
 def test_every_parameter_is_listed_with_its_reason(alone):
-    """Catches a parameter that the page passes over, and a value in another unit than its label."""
+    """Catches a parameter that the page passes over, a value in another unit, and a given one told as usual."""
     table = contact_force.parameters(SPEC, MCFC.section)
     names = {key.name for key in SPEC.kind.keys if key.name.startswith(MCFC.section) and key.name in SPEC.values}
     assert len(table.rows) == len(names)
@@ -133,7 +134,8 @@ def test_every_parameter_is_listed_with_its_reason(alone):
     stroke = cells(table, "Stroke")
     assert stroke[2:] == ["1.05 mm", "assumed", plain(reasons["benchmark.mcfc.stroke"])]
     assert cells(table, "Time step")[2] == "0.0001 s"
-    assert cells(table, "Valve lag")[2] == "0.2 s"
+    assert cells(table, "Valve lag")[2:] == ["0.2 s", DASH, contact_force.GIVEN]
+    assert cells(table, "Encoder resolution")[2:] == ["0.0054 mm", DASH, contact_force.DEFAULT]
 
 
 def test_designs_are_set_against_the_first(compared):
