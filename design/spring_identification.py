@@ -28,6 +28,7 @@ from fluxbore.design.dynamics.motion_log import check_rising, even_period
 from fluxbore.design.errors import IdentificationError, SpecError, shown
 from fluxbore.design.identification import Identified, Parameter, identify
 from fluxbore.design.measurements import Column, Measurements
+from fluxbore.design.units import format_quantity
 
 Floats = NDArray[np.float64]
 
@@ -41,6 +42,9 @@ ZERO, START = "zero_displacement", "start_state"
 """The parameters that are sought where asked for."""
 
 POWERS = (1, 3, 5)
+
+LEAST_REACH, LEAST_SLOPE = 1e-9, 1e-3
+"""m, N/m: below either there is no spring of magnets in the data."""
 
 LAWS = ("linear", "sine", "polynomial", "hysteresis")
 
@@ -61,10 +65,15 @@ def identify_spring(law: str, data: Measurements, *, level: float = 0.95, free: 
         (even_period if law == "hysteresis" and len(data) > 2 else check_rising)(data)
     x, f = data["displacement"], data["force"]
     reach = float(np.max(np.abs(x)))
-    slope = float(x @ f) / float(x @ x) if reach > 0 else 0.0
-    if not slope > 0:
+    if not reach >= LEAST_REACH:
         raise IdentificationError(
-            f"{data.source}: force must rise with the displacement, as a spring's does; "
+            f"{data.source}: displacement must reach {format_quantity(LEAST_REACH, 'length')} or more from zero; "
+            f"got {format_quantity(reach, 'length', 4)}."
+        )
+    slope = float((x / reach) @ f) / float((x / reach) @ (x / reach)) / reach
+    if not slope >= LEAST_SLOPE:
+        raise IdentificationError(
+            f"{data.source}: force must rise with the displacement by {LEAST_SLOPE:g} N/m or more, as a spring's does; "
             f"got {slope:g} N/m along the rows."
         )
     if law == "linear":
@@ -192,8 +201,8 @@ def _hysteresis(data: Measurements, slope: float, reach: float, level: float, fr
     loops = "closed loops, up to several times the way in which the hysteresis builds up"
     parameters += [
         Parameter("weight", 0.95, 0.0, 1.0, scale=0.1, told_by=loops),
-        Parameter("rising_rate", 5 / reach, 1e-3 / reach, told_by=loops),
-        Parameter("falling_rate", 2 / reach, 0.0, scale=5 / reach, told_by=loops),
+        Parameter("rising_rate", 5 / reach, 1e-3 / reach, 1e6 / reach, told_by=loops),
+        Parameter("falling_rate", 2 / reach, 0.0, 1e6 / reach, scale=5 / reach, told_by=loops),
     ]
     extra = _zero(reach, free)
     if START in free:

@@ -173,8 +173,10 @@ def test_a_gap_in_a_record_with_hysteresis() -> None:
     [
         ("1e-4,20\n2e-4,nan\n", 'line 3: force must hold finite numbers; got "nan"'),
         ("1e-4,20\n2e-4,\n", "line 3: force must hold finite numbers; got an empty cell"),
-        ("0,0\n0,1\n", "force must rise with the displacement"),
-        ("1e-4,-20\n2e-4,-40\n", "force must rise with the displacement, as a spring's does; got -200000 N/m"),
+        ("0,0\n0,1\n", "displacement must reach 1e-06 mm or more from zero; got 0 mm"),
+        ("1e-200,1\n2e-200,2\n", "displacement must reach 1e-06 mm or more from zero; got 2e-197 mm"),
+        ("1e-4,-20\n2e-4,-40\n", "force must rise with the displacement by 0.001 N/m or more"),
+        ("1e-4,1e-300\n2e-4,2e-300\n", "force must rise with the displacement by 0.001 N/m or more"),
         ("1e-4,20\n", "must have more rows than"),
         ("1e-4,20\n2e-4,40\n", "must have more rows than"),
     ],
