@@ -130,6 +130,11 @@ def _steady(log: MotionLog, speed: Floats, sense: int) -> NDArray[np.intp]:
 
 def _means(log: MotionLog, run: NDArray[np.intp], displacement: Floats, spacing: float, low: int, high: int) -> Floats:
     """The mean of x_d within half a spacing of each node."""
+    if high - low + 1 > len(run):
+        raise IdentificationError(
+            f"{log.source}: both runs must have a sample within each {spacing:.3g} rad of their way; "
+            f"one has {len(run)} for {high - low + 1} of them."
+        )
     node = np.round(log.angle[run] / spacing).astype(np.intp) - low
     inside = (node >= 0) & (node <= high - low)
     count = np.bincount(node[inside], minlength=high - low + 1)

@@ -100,7 +100,14 @@ def test_runs_that_do_not_tell_it(log: MotionLog, words: str) -> None:
 
 
 def test_angles_that_a_run_has_jumped_over() -> None:
-    """A sample for every third node."""
-    log = runs(forward=math.tau / NODES_PER_TURN * 3e3, backward=math.tau / NODES_PER_TURN * 3e3, turns=60)
-    with pytest.raises(IdentificationError, match="must have a sample within each"):
-        detect_distortion(log, H)
+    """A sample for every third node; a jump on the way out alone, about which the speed is not steady either."""
+    fast = math.tau / NODES_PER_TURN * 3e3
+    with pytest.raises(
+        IdentificationError, match=r"must have a sample within each 0\.0491 rad of their way; one has \d+ for"
+    ):
+        detect_distortion(runs(forward=fast, backward=fast, turns=60), H)
+    log = runs()
+    out = np.arange(len(log.angle)) < len(log.angle) / 2
+    kept = ~(out & (log.angle > 6.0) & (log.angle < 6.15))
+    with pytest.raises(IdentificationError, match=r"must have a sample within each .*; one has none about 5\.7"):
+        detect_distortion(replace(log, angle=log.angle[kept], position=log.position[kept]), H)
