@@ -16,10 +16,11 @@ from math import lcm, pi
 import numpy as np
 
 from fluxbore.design.errors import DesignError
+from fluxbore.design.lead_screw import Arcs
 from fluxbore.fem.helical import solve
 from fluxbore.fem.helical_force import force
 from fluxbore.fem.mesh import Floats
-from fluxbore.geometry.helical_arcs import Arcs
+from fluxbore.geometry.helical_arcs import wave_weight
 from fluxbore.geometry.helical_bands import Wave
 from fluxbore.geometry.helical_section import HelicalSection, Layer
 
@@ -46,13 +47,14 @@ def arc_harmonics(
     inner: Arcs | None,
     outer: Arcs | None,
     orders: Sequence[int] = (1, 3, 5),
-    reach: int = 2,
+    reach: int = 6,
     refinement: int = 1,
 ) -> tuple[ArcHarmonic, ...]:
     """The waves that make up force and torque of a screw whose members' magnets are arcs; None for a continuous helix.
 
-    reach : how many ripples on either side of each order. Iron with a curve is taken at its largest permeability, for
-    waves add up in linear materials only.
+    reach : how many ripples on either side of each order; with six arcs a turn six of them leave out 0.2 % of the force
+    and, for waves that turn fast count more there, 4 % of the torque. Iron with a curve is taken at its largest
+    permeability, for waves add up in linear materials only.
 
     Raises DesignError where the lead is no whole number of periods: arcs could not close a turn.
     """
@@ -63,15 +65,14 @@ def arc_harmonics(
             f"got {section.lead * 1e3:.6g} mm."
         )
     # A continuous helix has no wave but its own, and arcs share those whose m N agree.
-    shared = lcm(inner.count, outer.count) if inner and outer else 0
+    shared = lcm(inner.per_turn, outer.per_turn) if inner and outer else 0
     found = []
     for order in orders:
         for step in range(-reach, reach + 1) if shared else (0,):
             ripple = step * shared
             azimuthal = order * starts - ripple
-            weights = [1.0 if arcs is None else arcs.weight(azimuthal) for arcs in (inner, outer)]
             amplitude, phase = _pair(section, order, azimuthal, refinement)
-            amplitude *= weights[0] * weights[1]
+            amplitude *= wave_weight(inner, azimuthal, ripple) * wave_weight(outer, azimuthal, ripple)
             transfer = azimuthal * section.period / (2 * pi * order)
             found.append(ArcHarmonic(order, azimuthal, ripple, amplitude, phase, transfer))
     return tuple(found)
