@@ -20,7 +20,7 @@ from fluxbore.fem.mesh import Floats, Ints, Mesh, Topology
 from fluxbore.geometry.helical_section import HelicalSection, Layer
 
 MAGNET = Subdivision(8, 1.6)
-GAP = Subdivision(6, 1.4)
+GAP = Subdivision(8, 1.3)
 OTHER = Subdivision(7, 1.6, "start")
 """Of layers that have the gap on one side only: the field decays away from it."""
 
@@ -30,7 +30,7 @@ PERIOD_CELLS = 32
 SMALLEST = 1e-9
 """Of the period: edges closer than this are one."""
 
-SEGMENT_GROWTH = 1.25
+SEGMENT_GROWTH = 1.15
 """Of cells along ζ, away from the edges of a magnet: fields have a logarithm there."""
 
 

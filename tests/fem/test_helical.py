@@ -90,14 +90,17 @@ def test_published_harmonic_ratios() -> None:
 
 
 def test_magnets_of_one_member_exert_no_force_on_themselves() -> None:
-    """Catches a gap whose shear makes a force: what is left is the mesh's error, and falls with it."""
+    """Catches a gap whose shear makes a force: what is left is the mesh's error, and falls with it.
+
+    Half a cell of shear on either mesh, or it would fall with the shear as well; at order two at least.
+    """
 
     def alone(profile: Profile, refinement: int) -> float:
         layers = ideal(profile, profile).layers
         bare = (layers[0], layers[1], replace(layers[2], magnets=None), Layer("air", 26e-3))
-        section = HelicalSection(14.95e-3, bare, 1, PERIOD, PERIOD, 0.3 * PERIOD)
+        section = HelicalSection(14.95e-3, bare, 1, PERIOD, PERIOD, 9.5 / 32 * PERIOD)
         return abs(force(solve(section, refinement)))
 
     assert alone(BANDS, 1) < 1e-4 * exact_force(ideal(BANDS, BANDS, 0.3 * PERIOD))
     wave = Wave(1.25)
-    assert alone(wave, 2) < alone(wave, 1) / 8
+    assert alone(wave, 3) < alone(wave, 1) / 9

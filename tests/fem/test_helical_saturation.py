@@ -42,6 +42,7 @@ def test_every_iron_converges(iron: str, thickness: float) -> None:
     """Catches Newton's steps that go round in circles on steep or S-shaped curves, up to 4.6 T in the thinnest iron."""
     found = solve(backed(BANDS, curve=IRONS[iron], thickness=thickness))
     assert found.convergence.converged, found.convergence.sentence()
+    assert found.convergence.iterations <= 25
 
 
 def test_iron_saturates() -> None:
