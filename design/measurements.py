@@ -178,7 +178,8 @@ def _header(
     for column in columns:
         if column.name not in places:
             got = ", ".join(shown(cell.strip()) for cell in cells[:8])
-            raise MeasurementError(f"{source}, line {line}: the column {column.name} must be there; got {got}.")
+            hint = " (units stand in square brackets)" if any("(" in cell for cell in cells) else ""
+            raise MeasurementError(f"{source}, line {line}: the column {column.name} must be there; got {got}{hint}.")
     wanted = [column for column in (*columns, *optional) if column.name in places]
     return [
         _Reader(column, places[column.name][0], _unit(source, line, column, places[column.name][1]))
