@@ -200,7 +200,7 @@ def test_files_that_tell_nothing(capsys: pytest.CaptureFixture[str], text: str, 
     [
         (("friction", "none.csv"), "none.csv cannot be read: No such file or directory"),
         (("friction", "examples"), "examples cannot be read: Is a directory"),
-        (("magnet", DATA), 'model must be one of friction, magnetic-spring'),
+        (("magnet", DATA), "model must be one of friction, magnetic-spring"),
         (("friction", DATA, "--free", "F_0"), 'free must be one of viscous_coefficient for friction; got "F_0"'),
         (("friction", DATA, "--level", "1"), "level must be from 0.5 to 0.9999; got 1"),
         (("friction", DATA, "--level", "high"), 'argument --level: must be a number such as 0.95; got "high"'),

@@ -94,7 +94,7 @@ def test_an_optional_column_is_read_where_it_stands() -> None:
         ),
         (
             "velocity (mm/s),pressure,force\n1,2,3\n",
-            'the column velocity must be there; got "velocity (mm/s)", "pressure", "force" (units stand in square brackets).',
+            'must be there; got "velocity (mm/s)", "pressure", "force" (units stand in square brackets).',
         ),
         ("1,2,3\n4,5,6\n", 'm.csv, line 1: the column velocity must be there; got "1", "2", "3".'),
         (
