@@ -6,8 +6,8 @@
 A key within one step of a bound (or on it, such as a clearance of zero) has no central difference; it is skipped, and
 counted. Of the other derivatives those count whose difference is in doubt by less than a third of the limit;
 where one of these disagrees by more than the limit, its key is differenced again by fields that begin from nothing
-(`Designs.anew`), and that counts. What differences cannot tell (a cogging force of next to nothing, between rounding and the knots of a magnetisation curve) is
-counted apart.
+(`Designs.anew`), and that counts. What differences cannot tell (a cogging force of next to nothing, between rounding
+and the knots of a magnetisation curve) is counted apart.
 """
 
 from __future__ import annotations
