@@ -267,6 +267,11 @@ class HybridActuator:
                 f"actuator.cylinder.catalogue_bore must be within {BORE_DIFFERENCE:.0%} of "
                 f"actuator.cylinder.inner_diameter, {_mm(low)} to {_mm(high)}; got {_mm(cylinder.catalogue_bore)}."
             )
+        if piston.fin_outer_diameter <= cylinder.inner_diameter:
+            raise DesignError(
+                "actuator.piston.fin_outer_diameter must exceed actuator.cylinder.inner_diameter "
+                f"{_mm(cylinder.inner_diameter)}, or the fin does not seal; got {_mm(piston.fin_outer_diameter)}."
+            )
         if piston.fin_inner_diameter >= piston.fin_outer_diameter:
             raise DesignError(
                 "actuator.piston.fin_inner_diameter must be below actuator.piston.fin_outer_diameter "
@@ -276,11 +281,6 @@ class HybridActuator:
             raise DesignError(
                 "actuator.piston.fin_inner_diameter must be below actuator.cylinder.inner_diameter "
                 f"{_mm(cylinder.inner_diameter)}; got {_mm(piston.fin_inner_diameter)}."
-            )
-        if piston.fin_outer_diameter <= cylinder.inner_diameter:
-            raise DesignError(
-                "actuator.piston.fin_outer_diameter must exceed actuator.cylinder.inner_diameter "
-                f"{_mm(cylinder.inner_diameter)}, or the fin does not seal; got {_mm(piston.fin_outer_diameter)}."
             )
         if piston.fin_length >= piston.length:
             raise DesignError(
