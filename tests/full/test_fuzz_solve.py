@@ -11,7 +11,7 @@ pytestmark = pytest.mark.full
 
 SEED = 7
 HUNDREDS = max(1, round(10 * float(os.environ.get("FLUXBORE_SAMPLE", "1"))))
-"""Continuous integration takes a tenth."""
+"""Continuous integration takes one of them."""
 
 
 @pytest.mark.parametrize("hundred", range(HUNDREDS))

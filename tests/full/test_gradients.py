@@ -13,7 +13,7 @@ from gradient_proof import COUNT, LIMIT, SEED, faults, head, lines, run
 pytestmark = pytest.mark.full
 
 SHARE = float(os.environ.get("FLUXBORE_SAMPLE", "1"))
-"""Of the designs: continuous integration takes a tenth, and of their keys a quarter."""
+"""Of the designs: continuous integration takes a twentieth, and of their keys a quarter."""
 
 
 def test_fifty_random_designs_gradients() -> None:
