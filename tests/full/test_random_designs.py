@@ -15,7 +15,7 @@ from robustness import COUNT, SEED, lines, runs
 pytestmark = pytest.mark.full
 
 SHARE = float(os.environ.get("FLUXBORE_SAMPLE", "1"))
-"""Of the designs: continuous integration takes a tenth."""
+"""Of the designs: continuous integration takes a twentieth."""
 
 
 def test_five_hundred_random_designs_converge() -> None:
