@@ -229,7 +229,9 @@ def test_the_published_motors_steels(mid_stroke: TubularSolution) -> None:
         assert (shift[k] + own.sum()) * section.ends[1] == pytest.approx(0.0, abs=1e-6 * largest), name
 
 
-FACTORS = st.builds(complex, st.floats(-2, 2), st.floats(-2, 2))
+# Rounded: a factor near the smallest float makes figures whose last bits no sum keeps.
+PARTS = st.floats(-2, 2).map(lambda part: round(part, 9))
+FACTORS = st.builds(complex, PARTS, PARTS)
 
 
 @given(FACTORS, FACTORS)
