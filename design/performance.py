@@ -7,277 +7,263 @@ give is ``None``, never a guess.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, fields
 
+from fluxbore.design.figure_fields import DRIVE, FIELD, FORCE, GROUPS, HEAT, PRESSURE, SEAL, SIZE, WINDING, figure
+from fluxbore.design.lead_screw_performance import LeadScrewFigures
 from fluxbore.design.units import DIMENSIONS, format_quantity
-
-FORCE, FIELD, WINDING, DRIVE, HEAT, PRESSURE, SEAL, SIZE = GROUPS = (
-    "Force",
-    "Magnetic field",
-    "Winding",
-    "Drive",
-    "Losses and heat",
-    "Air cylinder and rod",
-    "Seal",
-    "Size and mass",
-)
-"""Headings under which tables for people put the figures, in this order."""
-
-
-def _figure(dimension: str, group: str, doc: str, *, signed: bool = False) -> float | None:
-    return field(default=None, metadata={"dimension": dimension, "group": group, "doc": doc, "signed": signed})
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Performance:
+class Performance(LeadScrewFigures):
     """Figures of one design, SI units; the unit and meaning of each stand in `FIGURES`."""
 
-    force_constant: float | None = _figure(
+    force_constant: float | None = figure(
         "force constant",
         FORCE,
         "thrust per ampere of balanced three-phase current amplitude on the q axis, incremental at no current, "
         "mean over the window of positions; by the stress tensor in the FEM, by equation (2) in the network",
     )
-    force_constant_linkage: float | None = _figure(
+    force_constant_linkage: float | None = figure(
         "force constant", FORCE, "the same from the fundamental of the phases' flux linkages: 3/2 (pi/tau) lambda_1"
     )
-    motor_constant: float | None = _figure(
+    motor_constant: float | None = figure(
         "motor constant", FORCE, "force constant over the root of 3/2 the phase resistance"
     )
-    winding_resistance: float | None = _figure("resistance", WINDING, "of one phase, at the winding's temperature")
-    turns: float | None = _figure("count", WINDING, "turns of one phase; fractional where a density of turns is held")
-    pneumatic_force_advance: float | None = _figure(
+    winding_resistance: float | None = figure("resistance", WINDING, "of one phase, at the winding's temperature")
+    turns: float | None = figure("count", WINDING, "turns of one phase; fractional where a density of turns is held")
+    pneumatic_force_advance: float | None = figure(
         "force", FORCE, "gauge pressure times the catalogue bore's area", signed=True
     )
-    pneumatic_force_retract: float | None = _figure("force", FORCE, "the same less the shaft's area", signed=True)
-    thrust_density: float | None = _figure(
+    pneumatic_force_retract: float | None = figure("force", FORCE, "the same less the shaft's area", signed=True)
+    thrust_density: float | None = figure(
         "force density",
         FORCE,
         "pneumatic force, advancing, and force constant times the current, over the reference volume or, without one, "
         "that of the back yoke's envelope",
         signed=True,
     )
-    force_constant_density: float | None = _figure(
+    force_constant_density: float | None = figure(
         "force constant density", FORCE, "force constant over the same volume"
     )
-    moving_mass: float | None = _figure("mass", SIZE, "shaft, magnets, rings and pistons")
-    total_mass: float | None = _figure("mass", SIZE, "all parts")
-    stray_field: float | None = _figure(
+    moving_mass: float | None = figure("mass", SIZE, "shaft, magnets, rings and pistons")
+    total_mass: float | None = figure("mass", SIZE, "all parts")
+    stray_field: float | None = figure(
         "flux density",
         FIELD,
         "largest flux density at no current on a cylinder 5 mm outside the yoke, from 20 mm before to 20 mm beyond it, "
         "over the window",
     )
-    yoke_flux_density: float | None = _figure(
+    yoke_flux_density: float | None = figure(
         "flux density",
         FIELD,
         "axial flux density averaged over the yoke's cross-section, largest along it and over the window",
     )
-    ring_flux_density: float | None = _figure(
+    ring_flux_density: float | None = figure(
         "flux density", FIELD, "radial flux density at the outside of an inner soft-magnetic ring, mean over its width"
     )
-    gap_flux_density: float | None = _figure(
+    gap_flux_density: float | None = figure(
         "flux density", FIELD, "mean radial flux density at the cylinder's outside over tau_f + 2 g_ac around a pole"
     )
-    cogging_force: float | None = _figure("force", FORCE, "largest axial force at no current over the window")
-    demagnetised_fraction: float | None = _figure(
+    cogging_force: float | None = figure("force", FORCE, "largest axial force at no current over the window")
+    demagnetised_fraction: float | None = figure(
         "fraction",
         FIELD,
         "share of the magnets' volume whose reverse field exceeds the intrinsic coercivity at temperature",
     )
-    electric_loading: float | None = _figure(
+    electric_loading: float | None = figure(
         "electric loading", WINDING, "peak K_sp of the sinusoidal current sheet at the spec's current"
     )
     # The drive: what the field and the supply allow.
-    phase_inductance: float | None = _figure(
+    phase_inductance: float | None = figure(
         "inductance",
         DRIVE,
         "flux linkage of a phase per ampere of balanced three-phase current (self less mutual), incremental at no "
         "current",
     )
-    peak_force: float | None = _figure(
+    peak_force: float | None = figure(
         "force",
         FORCE,
         "thrust at the peak current on the q axis in the middle of the window, less the cogging there",
         signed=True,
     )
-    saturation_ratio: float | None = _figure(
+    saturation_ratio: float | None = figure(
         "fraction", FORCE, "peak force over force constant times peak current: 100 % without saturation"
     )
-    peak_thrust: float | None = _figure(
+    peak_thrust: float | None = figure(
         "force",
         FORCE,
         "pneumatic force, advancing, and the electromagnetic force at the peak current",
         signed=True,
     )
-    back_emf: float | None = _figure(
+    back_emf: float | None = figure(
         "voltage", DRIVE, "amplitude of a phase at the speed: 2/3 of force constant times speed"
     )
-    voltage_demand: float | None = _figure(
+    voltage_demand: float | None = figure(
         "voltage",
         DRIVE,
         "amplitude of a phase that the current needs at the speed, over resistance, inductance and back-EMF",
     )
-    voltage_margin: float | None = _figure(
+    voltage_margin: float | None = figure(
         "voltage",
         DRIVE,
         "supply voltage over the root of 3 less the voltage demand; below zero the supply is too low",
         signed=True,
     )
-    no_load_speed: float | None = _figure("speed", DRIVE, "at which the back-EMF alone takes the whole supply voltage")
-    speed_limit: float | None = _figure(
+    no_load_speed: float | None = figure("speed", DRIVE, "at which the back-EMF alone takes the whole supply voltage")
+    speed_limit: float | None = figure(
         "speed",
         DRIVE,
         "to which the supply voltage can push the spec's current; below zero not even at rest, and how far from it",
         signed=True,
     )
     # The magnets under the worst of no current and peak current.
-    demagnetisation_load: float | None = _figure(
+    demagnetisation_load: float | None = figure(
         "fraction",
         FIELD,
         "reverse field in the magnets over their intrinsic coercivity at temperature, by its 8-norm over their volume; "
         "the worst of no current over the window and the peak current of either sign",
     )
-    peak_demagnetised_fraction: float | None = _figure(
+    peak_demagnetised_fraction: float | None = figure(
         "fraction", FIELD, "the demagnetised fraction at the peak current, on the q axis of either sign"
     )
     # Losses and temperature.
-    copper_loss: float | None = _figure("power", HEAT, "3/2 I^2 R at the spec's current amplitude")
-    iron_loss: float | None = _figure(
+    copper_loss: float | None = figure("power", HEAT, "3/2 I^2 R at the spec's current amplitude")
+    iron_loss: float | None = figure(
         "power", HEAT, "hysteresis and eddy currents of the solid yoke at the speed, over the magnet array's length"
     )
-    eddy_loss: float | None = _figure(
+    eddy_loss: float | None = figure(
         "power", HEAT, "eddy currents in the cylinder's wall at the speed, over the magnet array's length"
     )
-    drag_force: float | None = _figure("force", HEAT, "braking force of the eddy currents and of the yoke's hysteresis")
-    winding_temperature: float | None = _figure(
+    drag_force: float | None = figure("force", HEAT, "braking force of the eddy currents and of the yoke's hysteresis")
+    winding_temperature: float | None = figure(
         "temperature",
         HEAT,
         "mean of the winding, in steady state in still air, at the spec's current, duty and speed; beyond 2000 K only "
         "a measure of how far the copper has run away",
     )
-    continuous_current: float | None = _figure(
+    continuous_current: float | None = figure(
         "current",
         HEAT,
         "amplitude that heats the winding to its limit at the spec's duty and speed; below zero where the other losses "
         "alone exceed it",
         signed=True,
     )
-    continuous_thrust: float | None = _figure("force", HEAT, "force constant times continuous current", signed=True)
+    continuous_thrust: float | None = figure("force", HEAT, "force constant times continuous current", signed=True)
     # The air cylinder and the rod.
-    hoop_stress: float | None = _figure(
+    hoop_stress: float | None = figure(
         "stress", PRESSURE, "circumferential, at the bore of the cylinder under the pressure", signed=True
     )
-    cylinder_safety: float | None = _figure(
+    cylinder_safety: float | None = figure(
         "count", PRESSURE, "yield stress of the cylinder over its equivalent (von Mises) stress at the bore"
     )
-    bore_dilation: float | None = _figure(
+    bore_dilation: float | None = figure(
         "length",
         PRESSURE,
         "radial displacement of the bore under the pressure, outwards",
         signed=True,
     )
-    bore_clearance: float | None = _figure(
+    bore_clearance: float | None = figure(
         "length",
         PRESSURE,
         "radial, between mover and bore: (D_c' - D_m)/2 and the bore dilation, which opens it under pressure",
         signed=True,
     )
-    shaft_stress: float | None = _figure("stress", PRESSURE, "axial, under the peak thrust", signed=True)
-    shaft_safety: float | None = _figure("count", PRESSURE, "yield stress of the shaft over the shaft stress")
-    buckling_force: float | None = _figure(
+    shaft_stress: float | None = figure("stress", PRESSURE, "axial, under the peak thrust", signed=True)
+    shaft_safety: float | None = figure("count", PRESSURE, "yield stress of the shaft over the shaft stress")
+    buckling_force: float | None = figure(
         "force",
         PRESSURE,
         "critical axial load of the rod's free length when extended, by Euler and, where stocky, by Johnson",
     )
-    buckling_safety: float | None = _figure("count", PRESSURE, "buckling force over peak thrust")
+    buckling_safety: float | None = figure("count", PRESSURE, "buckling force over peak thrust")
     # The piston's seal: two fins with their lips on the bore.
-    seal_friction: float | None = _figure(
+    seal_friction: float | None = figure(
         "force", SEAL, "kinetic friction of the piston's seals at pressure and speed; at rest that of breaking away"
     )
-    seal_friction_variation: float | None = _figure(
+    seal_friction_variation: float | None = figure(
         "force", SEAL, "seal friction at the pressure less that without pressure, at the speed"
     )
-    fin_deformed_length: float | None = _figure(
+    fin_deformed_length: float | None = figure(
         "length", SEAL, "axial length of the fin that the bore bends, by equation (4)"
     )
-    fin_contact_area: float | None = _figure(
+    fin_contact_area: float | None = figure(
         "area", SEAL, "of the fin on the pressurised side with the bore, by equation (5)"
     )
-    fin_interference: float | None = _figure(
+    fin_interference: float | None = figure(
         "length",
         SEAL,
         "radial, of fin and bore: the least that tolerances and temperatures leave; below zero the fin does not touch",
         signed=True,
     )
-    largest_interference: float | None = _figure(
+    largest_interference: float | None = figure(
         "length", SEAL, "radial, of fin and bore: the most that tolerances and temperatures make of it", signed=True
     )
-    fin_angle: float | None = _figure("angle", SEAL, "of the fin's cone to its axis")
-    fin_wall: float | None = _figure("length", SEAL, "wall of the fin")
-    lip_contact_force: float | None = _figure(
+    fin_angle: float | None = figure("angle", SEAL, "of the fin's cone to its axis")
+    fin_wall: float | None = figure("length", SEAL, "wall of the fin")
+    lip_contact_force: float | None = figure(
         "force", SEAL, "radial force of one lip on the bore at the pressure, as drawn", signed=True
     )
-    lip_contact_pressure: float | None = _figure(
+    lip_contact_pressure: float | None = figure(
         "stress", SEAL, "lip contact force over the fin's contact area", signed=True
     )
-    sealing_margin: float | None = _figure(
+    sealing_margin: float | None = figure(
         "count",
         SEAL,
         "mean contact pressure at the least interference over the chamber's pressure; the lip seals above one",
         signed=True,
     )
-    lip_stress: float | None = _figure(
+    lip_stress: float | None = figure(
         "stress",
         SEAL,
         "largest equivalent (von Mises) stress in the lip between the least and the largest interference, without and "
         "under pressure",
     )
-    lip_safety: float | None = _figure("count", SEAL, "yield stress of the lip over lip stress")
-    air_leakage: float | None = _figure(
+    lip_safety: float | None = figure("count", SEAL, "yield stress of the lip over lip stress")
+    air_leakage: float | None = figure(
         "volume flow",
         SEAL,
         "of one dry lip at the pressure and the least interference, as air of the atmosphere; grease holds it back",
     )
-    seal_wear: float | None = _figure(
+    seal_wear: float | None = figure(
         "wear rate", SEAL, "depth that the lip loses per distance at the lip contact pressure"
     )
-    seal_life: float | None = _figure("distance", SEAL, "slid until the least interference is worn off", signed=True)
+    seal_life: float | None = figure("distance", SEAL, "slid until the least interference is worn off", signed=True)
     # What a workshop makes.
-    fill_factor: float | None = _figure("fraction", WINDING, "share of the winding's window that is copper")
-    winding_layers: float | None = _figure(
+    fill_factor: float | None = figure("fraction", WINDING, "share of the winding's window that is copper")
+    winding_layers: float | None = figure(
         "count",
         WINDING,
         "layers of insulated wire in a coil, as a continuous number: turns times wire over the coil's width",
     )
-    winding_room: float | None = _figure(
+    winding_room: float | None = figure(
         "length",
         WINDING,
         "radial room that the layers leave in the window, wires stacked in squares; below zero they do not fit",
         signed=True,
     )
-    yoke_wall: float | None = _figure("length", SIZE, "wall of the back yoke")
-    cylinder_wall: float | None = _figure("length", SIZE, "wall of the air cylinder")
-    magnet_wall: float | None = _figure("length", SIZE, "radial wall of the magnets: (D_m - D_s)/2")
-    outer_diameter: float | None = _figure("length", SIZE, "of the whole actuator")
-    length: float | None = _figure("length", SIZE, "of the stator over its end caps")
+    yoke_wall: float | None = figure("length", SIZE, "wall of the back yoke")
+    cylinder_wall: float | None = figure("length", SIZE, "wall of the air cylinder")
+    magnet_wall: float | None = figure("length", SIZE, "radial wall of the magnets: (D_m - D_s)/2")
+    outer_diameter: float | None = figure("length", SIZE, "of the whole actuator")
+    length: float | None = figure("length", SIZE, "of the stator over its end caps")
     # Coils in free space.
-    stored_energy: float | None = _figure("energy", FIELD, "of the magnetic field of all coils")
-    central_flux_density: float | None = _figure("flux density", FIELD, "on the axis at z = 0")
-    stray_flux_density: float | None = _figure(
+    stored_energy: float | None = figure("energy", FIELD, "of the magnetic field of all coils")
+    central_flux_density: float | None = figure("flux density", FIELD, "on the axis at z = 0")
+    stray_flux_density: float | None = figure(
         "flux density",
         FIELD,
         "root of the mean square over the points of the two lines on which the stray field is read",
     )
-    winding_flux_density: float | None = _figure("flux density", FIELD, "largest on the skin of any winding")
-    quench_load: float | None = _figure(
+    winding_flux_density: float | None = figure("flux density", FIELD, "largest on the skin of any winding")
+    quench_load: float | None = figure(
         "count",
         FIELD,
         "largest |J|/J_c + B/B_c of any winding, J_c and B_c being the superconductor's limits without field and "
         "without current; above one it quenches",
     )
-    joule_loss: float | None = _figure("power", HEAT, "of the current densities in the windings' conductor")
-    merit: float | None = _figure(
+    joule_loss: float | None = figure("power", HEAT, "of the current densities in the windings' conductor")
+    merit: float | None = figure(
         "count",
         FIELD,
         "(stray flux density / its norm)^2 + |stored energy - its reference| / its reference, the objective of the "
@@ -305,6 +291,8 @@ HEAVY = 10.0
 
 _PLAIN = {"count": "1", "fraction": "1", "power": "W"}
 
+_INHERITED = len(fields(LeadScrewFigures))
+
 FIGURES: dict[str, Figure] = {
     item.name: Figure(
         item.name,
@@ -314,7 +302,7 @@ FIGURES: dict[str, Figure] = {
         item.metadata["signed"],
         item.metadata["group"],
     )
-    for item in fields(Performance)
+    for item in (*fields(Performance)[_INHERITED:], *fields(LeadScrewFigures))
 }
 """Every figure by name, in the order of the results table."""
 

@@ -9,7 +9,14 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
-from fluxbore.design import coils_keys, coils_values, hybrid_keys, hybrid_values
+from fluxbore.design import (
+    coils_keys,
+    coils_values,
+    hybrid_keys,
+    hybrid_values,
+    lead_screw_keys,
+    lead_screw_values,
+)
 from fluxbore.design.errors import SpecError
 from fluxbore.design.keys import Alternatives, Key, Value, Values
 from fluxbore.design.materials import Material
@@ -67,6 +74,16 @@ KINDS: dict[str, Kind] = {
         coils_values.from_values,
         coils_keys.COILS_MATERIALS,
         check=coils_values.check,
+    ),
+    "lead-screw": Kind(
+        "lead-screw",
+        lead_screw_keys.LEAD_SCREW_KEYS,
+        lead_screw_keys.LEAD_SCREW_ALTERNATIVES,
+        lead_screw_values.resolve,
+        lead_screw_values.from_values,
+        lead_screw_keys.LEAD_SCREW_MATERIALS,
+        lead_screw_keys.LEAD_SCREW_NON_MAGNETIC,
+        lead_screw_values.check,
     ),
 }
 """Every kind of actuator a specification can describe."""

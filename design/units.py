@@ -132,6 +132,16 @@ DIMENSIONS: dict[str, Dimension] = {
         Dimension("distance", "m", "km", {"km": Unit(1e3), "m": Unit(1.0)}),
         Dimension("wear rate", "m/m", "um/km", {"um/km": Unit(1e-9), "mm/km": Unit(1e-6), "m/m": Unit(1.0)}),
         Dimension("specific wear", "m^2/N", "mm^3/(N m)", {"mm^3/(N m)": Unit(1e-9), "m^2/N": Unit(1.0)}),
+        Dimension("torque", "N m", "N m", {"N m": Unit(1.0), "mN m": Unit(1e-3)}),
+        Dimension("torque constant", "N m/A", "N m/A", {"N m/A": Unit(1.0), "mN m/A": Unit(1e-3)}),
+        Dimension("acceleration", "m/s^2", "m/s^2", {"m/s^2": Unit(1.0), "mm/s^2": Unit(1e-3)}),
+        Dimension("rotational inertia", "kg m^2", "kg m^2", {"kg m^2": Unit(1.0), "g cm^2": Unit(1e-7)}),
+        Dimension("angular frequency", "rad/s", "rad/s", {"rad/s": Unit(1.0)}),
+        Dimension("rate", "1/s", "1/s", {"1/s": Unit(1.0)}),
+        Dimension("wave number", "1/m", "1/m", {"1/m": Unit(1.0), "1/mm": Unit(1e3)}),
+        Dimension("transfer ratio", "rad/m", "rad/mm", {"rad/mm": Unit(1e3), "rad/m": Unit(1.0)}),
+        Dimension("inverse speed", "s/m", "s/m", {"s/m": Unit(1.0)}),
+        Dimension("speed gain", "A s/rad", "A s/rad", {"A s/rad": Unit(1.0)}),
     )
 }
 """Every dimension a specification can hold, by name; their unit tables are all the units there are."""

@@ -105,3 +105,23 @@ COILS = KindWords(
         "Turns, joints and leads: each winding carries its current density evenly.",
     ),
 )
+
+LEAD_SCREW = KindWords(
+    network="the analytic field",
+    network_note="The analytic field is that of (7) to (10) of the RotLin paper: infinitely permeable iron.",
+    moves=False,
+    has_field=False,
+    headlines=(
+        "stall_force",
+        "spring_constant",
+        "stall_force_density",
+        "motor_torque",
+        "moving_mass",
+        "outer_diameter",
+    ),
+    symbols=(
+        ("x_d", "relative displacement: the way of the rotor's field less that of the mover"),
+        ("h", "lead over 2π: way of the field by the rotor's angle"),
+        ("l_p", "pitch, from one magnet to the next of the same polarity"),
+    ),
+)

@@ -55,6 +55,16 @@ INDEPENDENT = {
     "distance": {"km": 1e3, "m": 1.0},
     "wear rate": {"um/km": 1e-9, "mm/km": 1e-6, "m/m": 1.0},
     "specific wear": {"mm^3/(N m)": 1e-9, "m^2/N": 1.0},
+    "torque": {"N m": 1.0, "mN m": 1e-3},
+    "torque constant": {"N m/A": 1.0, "mN m/A": 1e-3},
+    "acceleration": {"m/s^2": 1.0, "mm/s^2": 1e-3},
+    "rotational inertia": {"kg m^2": 1.0, "g cm^2": 1e-7},
+    "angular frequency": {"rad/s": 1.0},
+    "rate": {"1/s": 1.0},
+    "wave number": {"1/m": 1.0, "1/mm": 1e3},
+    "transfer ratio": {"rad/m": 1.0, "rad/mm": 1e3},
+    "inverse speed": {"s/m": 1.0},
+    "speed gain": {"A s/rad": 1.0},
 }
 """SI value of one unit, for every dimension without an offset."""
 

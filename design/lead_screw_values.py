@@ -1,0 +1,207 @@
+"""From a specification's values to a lead screw's parameters."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+from fluxbore.design.errors import DesignError, SpecError
+from fluxbore.design.keys import Value, Values
+from fluxbore.design.lead_screw import Arcs, HelicalMagnets, LeadScrew
+from fluxbore.design.lead_screw_keys import CONTINUOUS, MEMBERS, STEPPED_ARCS
+from fluxbore.design.materials import Library, Material, PermanentMagnet, SoftIron, lookup
+from fluxbore.design.units import format_quantity
+
+ROUNDING = 1e-9
+"""Relative; a thickness that falls short by no more is as thick as it must be."""
+
+
+@dataclass(frozen=True, slots=True)
+class Member:
+    """What one member is made of: names of materials, and what was measured in place of the grade's (None: its own)."""
+
+    magnet: str
+    iron: str
+    body: str
+    remanence: float | None
+    permeability: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class LeadScrewActuator:
+    """A magnetic lead screw with what carries and turns it, SI units.
+
+    shape : its dimensions, with magnets of 1 T; `magnetised` gives it those of its grades. carrier_radius : inside of
+    the translator, 0 where it is solid. motor_radius, motor_length : the stator's, None where it is not described.
+    """
+
+    name: str
+    shape: LeadScrew
+    translator: Member
+    rotor: Member
+    carrier_radius: float
+    motor_radius: float | None
+    motor_length: float | None
+    motor_inertia: float
+    torque_constant: float | None
+    reference_volume: float | None
+    stroke: float
+
+    def magnetised(self, library: Library, temperature: float) -> LeadScrew:
+        """The screw with the remanences at a temperature (K) and the densities of its materials.
+
+        Raises MaterialError for a name that no material has, and where the heat leaves nothing of a remanence.
+        """
+        shape, frame = self.shape, lookup(self.rotor.body, "actuator.rotor.frame", library, Material)
+        return replace(
+            shape,
+            translator=_filled(shape.translator, "translator", self.translator, library, temperature),
+            rotor=_filled(shape.rotor, "rotor", self.rotor, library, temperature),
+            frame_density=frame.density,
+        )
+
+
+def resolve(given: Values) -> dict[str, Value]:
+    """Complete the given keys: magnets half a pitch wide, a stroke over which all poles are engaged.
+
+    Raises nothing; what cannot be built is `from_values`'s.
+    """
+    values = dict(given)
+    pitch = float(values["actuator.pitch"])
+    for member in MEMBERS:
+        values.setdefault(f"actuator.{member}.magnet_width", pitch / 2)
+    engaged = float(values["actuator.translator.length"]) - float(values["actuator.poles"]) * pitch / 2
+    values.setdefault("operating_point.stroke", engaged)
+    if "benchmark.force.position_count" in values:
+        count = float(values["benchmark.force.position_count"])
+        values.setdefault("benchmark.force.angle_count", count / (float(values["actuator.starts"]) * pitch / math.tau))
+    return values
+
+
+def check(values: Values) -> None:
+    """Raise SpecError where the arcs or the motor are described in part."""
+    for member in MEMBERS:
+        form = values[f"actuator.{member}.magnets"]
+        for leaf in ("arc_angle", "arcs_per_turn"):
+            key = f"actuator.{member}.{leaf}"
+            if form != CONTINUOUS and key not in values:
+                raise SpecError(f'{key} is missing: actuator.{member}.magnets is "{form}".')
+            if form == CONTINUOUS and key in values:
+                raise SpecError(f'{key} must not be given where actuator.{member}.magnets is "{CONTINUOUS}".')
+    pair = ("actuator.motor.outer_radius", "actuator.motor.length")
+    given = [key for key in pair if key in values]
+    if len(given) == 1:
+        missing = next(key for key in pair if key not in values)
+        raise SpecError(f"{missing} is missing: it is needed with {given[0]}.")
+
+
+def from_values(values: Values) -> LeadScrewActuator:
+    """The parameters of the resolved values. Raises DesignError, one sentence, where they cannot be built."""
+    number = _Reader(values)
+    shape = LeadScrew(
+        pitch=number("pitch"),
+        poles=int(number("poles")),
+        translator_radius=number("translator.outer_radius"),
+        gap=number("gap"),
+        translator=_shape(values, number, "translator"),
+        rotor=_shape(values, number, "rotor"),
+        translator_length=number("translator.length"),
+        frame_radius=number("rotor.outer_radius"),
+        frame_length=number("rotor.length"),
+        starts=int(number("starts")),
+        gap_tolerance=number("gap_tolerance"),
+        carried_mass=number("carried_mass"),
+    )
+    motor_radius = number.optional("motor.outer_radius")
+    if motor_radius is not None and motor_radius < shape.frame_radius:
+        raise DesignError(
+            "actuator.motor.outer_radius must not be below actuator.rotor.outer_radius "
+            f"{_mm(shape.frame_radius)}; got {_mm(motor_radius)}."
+        )
+    return LeadScrewActuator(
+        name=str(values["actuator.name"]),
+        shape=shape,
+        translator=_member(values, number, "translator", "carrier"),
+        rotor=_member(values, number, "rotor", "frame"),
+        carrier_radius=_carrier_radius(shape, number.optional("translator.thickness")),
+        motor_radius=motor_radius,
+        motor_length=number.optional("motor.length"),
+        motor_inertia=number("motor.inertia"),
+        torque_constant=number.optional("motor.torque_constant"),
+        reference_volume=number.optional("reference_volume"),
+        stroke=float(values["operating_point.stroke"]),
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class _Reader:
+    """Numbers of the section `actuator` by the rest of their keys."""
+
+    values: Values
+
+    def __call__(self, name: str) -> float:
+        return float(self.values[f"actuator.{name}"])
+
+    def optional(self, name: str) -> float | None:
+        value = self.values.get(f"actuator.{name}")
+        return None if value is None else float(value)
+
+
+def _shape(values: Values, number: _Reader, member: str) -> HelicalMagnets:
+    """A member's magnets by their dimensions, 1 T until their grade is known."""
+    form, arcs = values[f"actuator.{member}.magnets"], None
+    if form != CONTINUOUS:
+        arcs = Arcs(number(f"{member}.arc_angle"), int(number(f"{member}.arcs_per_turn")), form == STEPPED_ARCS)
+    return HelicalMagnets(
+        magnet_thickness=number(f"{member}.magnet_thickness"),
+        magnet_width=number(f"{member}.magnet_width"),
+        remanence=1.0,
+        arcs=arcs,
+        iron_thickness=number(f"{member}.iron_thickness"),
+    )
+
+
+def _member(values: Values, number: _Reader, member: str, body: str) -> Member:
+    def word(leaf: str) -> str:
+        return str(values[f"actuator.{member}.{leaf}"])
+
+    return Member(
+        word("magnet"),
+        word("iron"),
+        word(body),
+        number.optional(f"{member}.remanence"),
+        number.optional(f"{member}.magnet_permeability"),
+    )
+
+
+def _carrier_radius(shape: LeadScrew, thickness: float | None) -> float:
+    """Inside of the translator (m)."""
+    if thickness is None:
+        return 0.0
+    least = shape.translator.magnet_thickness + shape.translator.iron_thickness
+    if thickness < least * (1 - ROUNDING):
+        raise DesignError(
+            f"actuator.translator.thickness must hold its magnets and iron, {_mm(least)}; got {_mm(thickness)}."
+        )
+    if thickness > shape.translator_radius * (1 + ROUNDING):
+        raise DesignError(
+            f"actuator.translator.thickness must not exceed actuator.translator.outer_radius "
+            f"{_mm(shape.translator_radius)}; got {_mm(thickness)}."
+        )
+    return max(0.0, shape.translator_radius - thickness)
+
+
+def _filled(magnets: HelicalMagnets, name: str, member: Member, library: Library, temperature: float) -> HelicalMagnets:
+    grade = lookup(member.magnet, f"actuator.{name}.magnet", library, PermanentMagnet)
+    iron = lookup(member.iron, f"actuator.{name}.iron", library, SoftIron)
+    return replace(
+        magnets,
+        remanence=grade.remanence_at(temperature, member.remanence),
+        magnet_permeability=grade.recoil(member.permeability),
+        magnet_density=grade.density,
+        iron_density=iron.density,
+    )
+
+
+def _mm(length: float) -> str:
+    return format_quantity(length, "length")
