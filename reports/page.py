@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from fluxbore.design.errors import OutputError
 from fluxbore.optimize.folder import write_atomic
 from fluxbore.reports import (
-    contact_force,
+    benchmark_sections,
     curves,
     figure_tables,
     flux_picture,
@@ -110,7 +110,7 @@ def _context(content: ReportContent) -> Mapping[str, Any]:
         "front": _front(content),
         "tolerance": _tolerance(content),
         "robust": _robust(content),
-        "contact_force": _contact_force(content),
+        "benchmark": benchmark_sections.benchmark_section(content.simulation),
         "failures": story.failures(search) if search else "",
         "field": _field(content),
         "force_figures": _present(*_force(content)) if sound else (),
@@ -207,11 +207,6 @@ def _robust(content: ReportContent) -> dict[str, Any] | None:
         "sentences": tolerances.robust_sentences(content.spec, content.robust),
         "rounds": tolerances.rounds(content.spec, content.robust),
     }
-
-
-def _contact_force(content: ReportContent) -> dict[str, Any] | None:
-    found = content.simulation
-    return contact_force.section(found) if found is not None and found.ok and found.benchmark.name == "mcfc" else None
 
 
 def _field(content: ReportContent) -> dict[str, Any] | None:
