@@ -1,0 +1,190 @@
+"""What the finite elements give of a magnetic lead screw: its field at a few displacements, and its force as a series.
+
+The members' north and south bands are alike and the iron has no memory, so that
+
+    F(-x) = -F(x),   F(l_p/2 - x) = F(x)
+
+hold with saturated iron too: F is a sum of sines of odd order, and the first quarter of the pitch tells all of it. It
+is met exactly at `QUARTERS` displacements and, to have its slope, next to rest.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from fluxbore.design.errors import DesignError
+from fluxbore.design.lead_screw import LeadScrew
+from fluxbore.design.lead_screw_values import LeadScrewActuator
+from fluxbore.design.materials import SoftIron, lookup
+from fluxbore.design.spec import Spec
+
+if TYPE_CHECKING:
+    from fluxbore.design.bh_curve import BHCurve
+    from fluxbore.design.force_series import Floats, ForceSeries
+    from fluxbore.fem.helical import HelicalSolution
+    from fluxbore.fem.magnetostatics import Settings
+    from fluxbore.fem.newton import Convergence
+    from fluxbore.geometry.helical_section import HelicalSection
+
+QUARTERS = 4
+"""Displacements that cut a quarter of the pitch into like parts. All are whole cells of the mesh, so that the members'
+lines meet as they do at rest. With the slope at rest they give harmonics up to n = 9."""
+
+REST = 1e-3
+"""Of the pitch: near enough to rest that the force over it is the slope to 1e-5, and far enough for its digits."""
+
+SLIPPING = 0.5
+"""Of the pitch: equal poles face each other, which the magnets bear at every slip."""
+
+
+@dataclass(frozen=True, eq=False)
+class LeadScrewField:
+    """The solutions of one screw.
+
+    samples : at `displacements` of the pitch, in that order. slipping : at half a pitch. top : where the series has its
+    peak if that is none of the samples, as in narrow magnets beside a narrow gap; None otherwise.
+    """
+
+    screw: LeadScrew
+    samples: list[HelicalSolution]
+    slipping: HelicalSolution | None = None
+    top: HelicalSolution | None = None
+
+    @property
+    def solved(self) -> Iterator[HelicalSolution]:
+        """Every state, in the order of solving."""
+        yield from self.samples
+        yield from (item for item in (self.slipping, self.top) if item is not None)
+
+    @property
+    def failure(self) -> tuple[str, Convergence] | None:
+        """Where the first field that did not converge is, and how it ended."""
+        for item in self.solved:
+            if not item.convergence.converged:
+                return f"At a displacement of {item.section.displacement * 1e3:.4g} mm: ", item.convergence
+        return None
+
+    @property
+    def stall(self) -> HelicalSolution:
+        """The state of the largest force."""
+        return self.top or self.samples[0]
+
+    @property
+    def rest(self) -> HelicalSolution:
+        """The state next to rest."""
+        return self.samples[-1]
+
+    @cached_property
+    def series(self) -> ForceSeries:
+        """F(x_d) of the whole active length, through the samples."""
+        import numpy as np
+
+        from fluxbore.design.force_series import ForceSeries
+        from fluxbore.fem.helical_force import force
+
+        forces = np.array([force(item) for item in self.samples]) * periods(self.screw)
+        return ForceSeries(interpolation() @ forces, self.screw.pitch)
+
+
+def periods(screw: LeadScrew) -> float:
+    """Periods of the rotor's poles, by which the field's forces of one are multiplied."""
+    return screw.poles / 2
+
+
+def displacements() -> tuple[float, ...]:
+    """Of the pitch: from the quarter, where the peak is as a rule, down to next to rest."""
+    return (*(k / (4 * QUARTERS) for k in range(QUARTERS, 0, -1)), REST)
+
+
+def interpolation() -> Floats:
+    """Matrix that makes amplitudes F_n, n = 1, 3, 5 ..., of the forces at `displacements`, of whatever pitch."""
+    import numpy as np
+
+    shares = np.array(displacements())
+    orders = 2.0 * np.arange(shares.size) + 1
+    return np.asarray(np.linalg.inv(np.sin(2 * np.pi * np.outer(shares, orders))))
+
+
+def magnetised(spec: Spec) -> LeadScrew:
+    """The screw with its materials at the specification's temperature. Raises MaterialError."""
+    actuator: LeadScrewActuator = spec.actuator
+    return actuator.magnetised(spec.materials, spec.number("operating_point.magnet_temperature"))
+
+
+def section(spec: Spec, screw: LeadScrew, displacement: float) -> HelicalSection:
+    """The cross-section at a displacement x_d (m), iron with its curves."""
+    from fluxbore.geometry.lead_screw import helical_section
+
+    actuator: LeadScrewActuator = spec.actuator
+    return helical_section(
+        screw,
+        displacement,
+        _curve(spec, "translator", actuator.translator.iron, screw.translator.iron_thickness),
+        _curve(spec, "rotor", actuator.rotor.iron, screw.rotor.iron_thickness),
+    )
+
+
+def solve_field(spec: Spec, screw: LeadScrew) -> LeadScrewField:
+    """All of the screw's fields; it ends at the first that does not converge.
+
+    The largest force is read off a field at the peak itself, where it is level: as far as the series may have missed
+    the place, the force is short by the square of that. Raises DesignError where no force pulls back to rest.
+    """
+    field = LeadScrewField(screw, _solve(spec, screw, displacements()))
+    if field.failure is not None:
+        return field
+    series = field.series
+    place, peak = series.peak
+    check_force(spec, peak)
+    near = field.samples[0]
+    field = replace(field, slipping=_solve(spec, screw, (SLIPPING,), near)[0])
+    if place != screw.pitch / 4:
+        field = replace(field, top=_solve(spec, screw, (place / screw.pitch,), near)[0])
+    return field
+
+
+def check_force(spec: Spec, peak: float) -> None:
+    """Raise DesignError, one sentence, where the peak (N) of the force over the first quarter is not above zero: arcs
+    so long that their steps turn the poles over."""
+    if peak > 0:
+        return
+    from fluxbore.design.units import format_quantity
+
+    found = [
+        f"actuator.{member}.arc_angle {format_quantity(spec.number(f'actuator.{member}.arc_angle'), 'angle')}"
+        for member in ("translator", "rotor")
+        if f"actuator.{member}.arc_angle" in spec.values
+    ]
+    raise DesignError(
+        "The poles must pull each other back to rest over the first quarter of actuator.pitch with more than 0 N; got "
+        f"{peak:.3g} N{' with ' + ' and '.join(found) if found else ''}."
+    )
+
+
+def _solve(
+    spec: Spec, screw: LeadScrew, shares: tuple[float, ...], near: HelicalSolution | None = None
+) -> list[HelicalSolution]:
+    """The field at each of some displacements (of the pitch), each begun from the one before."""
+    from fluxbore.fem.helical import solve
+
+    settings, refinement = _settings(spec), int(spec.number("solver.mesh_refinement"))
+    solved: list[HelicalSolution] = []
+    for share in shares:
+        near = solve(section(spec, screw, share * screw.pitch), refinement, settings, near)
+        solved.append(near)
+        if not near.convergence.converged:
+            break
+    return solved
+
+
+def _curve(spec: Spec, member: str, iron: str, thickness: float) -> BHCurve | None:
+    return lookup(iron, f"actuator.{member}.iron", spec.materials, SoftIron).curve if thickness > 0 else None
+
+
+def _settings(spec: Spec) -> Settings:
+    from fluxbore.fem.magnetostatics import Settings
+
+    return Settings(spec.number("solver.tolerance"), int(spec.number("solver.max_iterations")), "auto")
