@@ -35,7 +35,8 @@ def flux_function(solution: HelicalSolution) -> Floats:
     r, b = positions(system.mesh)[..., 0], solution.flux_density()
     slopes = np.stack((r * b[..., 2] - solution.section.transfer_ratio * b[..., 1], -r * b[..., 0]), axis=-1)
     pull = np.einsum("mqkn,mqk,mq->mn", rows, slopes, weight, optimize=True)
-    load = topology.gather(np.bincount(system.mesh.elements.ravel(), pull.ravel(), topology.freedom.size))
+    nodal = np.bincount(system.mesh.elements.ravel(), pull.ravel(), topology.freedom.size)
+    load = topology.gather(np.asarray(nodal, dtype=float))
     values = topology.pattern.assemble(stiffness(rows, weight))
     return topology.spread(factorise(topology.pattern, values, "superlu").solve(load))
 
@@ -75,9 +76,9 @@ def _magnitude(solution: HelicalSolution, psi: Floats) -> Floats:
 
 
 def _free(topology: Topology) -> Topology:
-    """The same ties, with an unknown wherever the potential is prescribed; one node is zero where ψ is free by a number.
+    """The same ties, with an unknown wherever the potential is prescribed.
 
-    Unknowns are numbered by their nodes.
+    Unless the field changes its sign after half a period ψ is known up to a number, and is zero at one node.
     """
     mates = topology.mates
     stands = np.flatnonzero(mates == np.arange(mates.size))
