@@ -128,12 +128,17 @@ class Alternatives:
     count: int
     rule: str
 
+    @property
+    def demand(self) -> str:
+        """How many of the keys it takes, in words."""
+        return f"exactly {_count_word(self.count)}"
+
     def check(self, given: Values) -> None:
         """Raise SpecError where too many or too few of the keys are given."""
         present = [key for key in self.keys if key in given]
         if len(present) == self.count:
             return
-        wanted = f"exactly {_count_word(self.count)} of {', '.join(self.keys)} ({self.rule})"
+        wanted = f"{self.demand} of {', '.join(self.keys)} ({self.rule})"
         got = ", ".join(present) or "none"
         kind = "over-determined" if len(present) > self.count else "under-determined"
         raise SpecError(f"The specification is {kind}: give {wanted}; got {got}.")

@@ -63,7 +63,7 @@ class LeadScrew:
 
     Raises DesignError, one sentence, where it cannot be built: a value that is no number or not above zero, a pitch
     shorter than two magnet widths, arcs that overlap, a gap that its tolerance closes, a back iron thicker than the
-    translator, a translator shorter than the rotor's magnets, a frame within them.
+    translator, a translator or a frame shorter than the rotor's magnets, a frame within them.
     """
 
     pitch: float  # l_p, from one magnet to the next of the same polarity
@@ -99,6 +99,11 @@ class LeadScrew:
             raise DesignError(
                 "actuator.translator.length must be at least the length of the rotor's poles, "
                 f"{_mm(self.active_length)}; got {_mm(self.translator_length)}."
+            )
+        if self.frame_length < self.active_length * (1 - ROUNDING):
+            raise DesignError(
+                f"actuator.rotor.length must be at least the length of its poles, {_mm(self.active_length)}; "
+                f"got {_mm(self.frame_length)}."
             )
         if self.frame_radius < self.rotor_iron_radius * (1 - ROUNDING):
             raise DesignError(

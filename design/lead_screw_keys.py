@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from fluxbore.design.force_benchmark_keys import FORCE_BENCHMARK_KEYS
-from fluxbore.design.keys import Alternatives, Key
+from fluxbore.design.keys import Alternatives, Key, Values
 from fluxbore.design.materials import Material, PermanentMagnet, SoftIron
 
 LARGEST_LENGTH = 10.0
@@ -18,12 +20,35 @@ CONTINUOUS, HELICAL_ARCS, STEPPED_ARCS = MAGNET_FORMS = ("continuous", "helical 
 MEMBERS = ("translator", "rotor")
 
 
+@dataclass(frozen=True, slots=True)
+class AtMostOne(Alternatives):
+    """Alternatives of which none need be given."""
+
+    @property
+    def demand(self) -> str:
+        return "at most one"
+
+    def check(self, given: Values) -> None:
+        """Raise SpecError where more of the keys are given than one."""
+        if any(key in given for key in self.keys):
+            Alternatives.check(self, given)
+
+
 def _length(name: str, symbol: str, doc: str, *, optional: bool = False) -> Key:
     return Key(f"actuator.{name}", doc, symbol=symbol, above=0.0, maximum=LARGEST_LENGTH, optional=optional)
 
 
-def _zero_length(name: str, symbol: str, doc: str) -> Key:
-    return Key(f"actuator.{name}", doc, symbol=symbol, minimum=0.0, maximum=LARGEST_LENGTH, default=0.0)
+def _zero_length(name: str, symbol: str, doc: str, *, given: bool = False) -> Key:
+    """From zero; that of alternatives where it must be ``given`` to count."""
+    return Key(
+        f"actuator.{name}",
+        doc,
+        symbol=symbol,
+        minimum=0.0,
+        maximum=LARGEST_LENGTH,
+        default=None if given else 0.0,
+        optional=given,
+    )
 
 
 def _word(name: str, doc: str, default: str | None = None) -> Key:
@@ -38,6 +63,14 @@ def _magnets(member: str) -> tuple[Key, ...]:
             f"{member}.magnet_width",
             "w",
             "axial width of one magnet; without it half the pitch, so that neighbours touch",
+            optional=True,
+        ),
+        Key(
+            f"actuator.{member}.magnet_fill",
+            "share of half the pitch that a magnet is wide",
+            kind="number",
+            above=0.0,
+            maximum=1.0,
             optional=True,
         ),
         _word(f"{member}.magnet", "magnet grade: temperature coefficients, coercivity, density"),
@@ -127,12 +160,20 @@ LEAD_SCREW_KEYS: tuple[Key, ...] = (
         "radial: magnets, iron and the carrier within; without it the translator is solid to the axis",
         optional=True,
     ),
+    _zero_length(
+        "translator.carrier_thickness",
+        "",
+        "radial, of the carrier within the translator's magnets and iron",
+        given=True,
+    ),
     _word("translator.carrier", "within the magnets and the iron; must not be magnetic", "aluminium 6061"),
     *_magnets("translator"),
     _length("rotor.outer_radius", "R_r", "outside of the rotor's frame"),
+    _zero_length("rotor.frame_thickness", "", "radial, of the frame around the rotor's magnets and iron", given=True),
     _length("rotor.length", "", "of the rotor's frame along the axis"),
-    _word("rotor.frame", "around the magnets and the iron; must not be magnetic", "phenolic paper"),
+    _zero_length("rotor.overhang", "", "by how much the frame is longer than the rotor's poles, in all", given=True),
     *_magnets("rotor"),
+    _word("rotor.frame", "around the magnets and the iron; must not be magnetic", "phenolic paper"),
     _length("motor.outer_radius", "R_s", "of the stator that turns the rotor: envelope only", optional=True),
     _length("motor.length", "l_s", "of the stator that turns the rotor: envelope only", optional=True),
     Key(
@@ -218,7 +259,23 @@ LEAD_SCREW_KEYS: tuple[Key, ...] = (
     *FORCE_BENCHMARK_KEYS,
 )
 
-LEAD_SCREW_ALTERNATIVES: tuple[Alternatives, ...] = ()
+LEAD_SCREW_ALTERNATIVES: tuple[Alternatives, ...] = (
+    Alternatives(
+        ("actuator.translator.outer_radius", "actuator.rotor.outer_radius", "actuator.rotor.frame_thickness"),
+        2,
+        "R_r = R_t + gap + the rotor's magnets and iron + frame_thickness",
+    ),
+    Alternatives(("actuator.rotor.length", "actuator.rotor.overhang"), 1, "length = poles x l_p / 2 + overhang"),
+    AtMostOne(
+        ("actuator.translator.thickness", "actuator.translator.carrier_thickness"),
+        1,
+        "thickness = the translator's magnets and iron + carrier_thickness",
+    ),
+    *(
+        AtMostOne((f"actuator.{member}.magnet_width", f"actuator.{member}.magnet_fill"), 1, "width = fill x l_p / 2")
+        for member in MEMBERS
+    ),
+)
 
 LEAD_SCREW_MATERIALS: dict[str, type[Material]] = {
     "actuator.translator.magnet": PermanentMagnet,

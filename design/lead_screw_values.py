@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import Any
 
 from fluxbore.design.errors import DesignError, SpecError
 from fluxbore.design.keys import Value, Values
@@ -62,20 +63,69 @@ class LeadScrewActuator:
 
 
 def resolve(given: Values) -> dict[str, Value]:
-    """Complete the given keys: magnets half a pitch wide, a stroke over which all poles are engaged.
+    """Complete the given keys by those that follow from them.
 
-    Raises nothing; what cannot be built is `from_values`'s.
+    The third of the radii R_t, R_r and the frame's thickness, the rotor's length or what it exceeds its poles by, the
+    translator's thickness or its carrier's (both down to the axis where neither is given), the magnets' width or their
+    share of half a pitch (all of it where neither is given), and a stroke over which all poles are engaged.
+
+    Plain arithmetic, no conversions: values may be complex, so that a step along the imaginary axis gives exact
+    derivatives of all that follows. Raises nothing; what cannot be built is `from_values`'s.
     """
-    values = dict(given)
-    pitch = float(values["actuator.pitch"])
+    values: dict[str, Any] = dict(given)
+    _resolve_radii(values)
+    half_pitch = values["actuator.pitch"] / 2
+    engaged = values["actuator.poles"] * half_pitch
+    if "actuator.rotor.length" not in values:
+        values["actuator.rotor.length"] = engaged + values["actuator.rotor.overhang"]
+    else:
+        values["actuator.rotor.overhang"] = _rest(values["actuator.rotor.length"], engaged)
     for member in MEMBERS:
-        values.setdefault(f"actuator.{member}.magnet_width", pitch / 2)
-    engaged = float(values["actuator.translator.length"]) - float(values["actuator.poles"]) * pitch / 2
-    values.setdefault("operating_point.stroke", engaged)
+        width, fill = f"actuator.{member}.magnet_width", f"actuator.{member}.magnet_fill"
+        if width in values:
+            values[fill] = 1.0 - _rest(half_pitch, values[width]) / half_pitch
+        else:
+            values.setdefault(fill, 1.0)
+            values[width] = values[fill] * half_pitch
+    values.setdefault("operating_point.stroke", values["actuator.translator.length"] - engaged)
     if "benchmark.force.position_count" in values:
-        count = float(values["benchmark.force.position_count"])
-        values.setdefault("benchmark.force.angle_count", count / (float(values["actuator.starts"]) * pitch / math.tau))
+        lead = values["actuator.starts"] * values["actuator.pitch"]
+        values.setdefault("benchmark.force.angle_count", values["benchmark.force.position_count"] * math.tau / lead)
     return values
+
+
+def _resolve_radii(values: dict[str, Any]) -> None:
+    """Radially, from the axis outwards."""
+
+    def depth(member: str) -> Any:
+        return values[f"actuator.{member}.magnet_thickness"] + values[f"actuator.{member}.iron_thickness"]
+
+    inside, outside, frame = (
+        "actuator.translator.outer_radius",
+        "actuator.rotor.outer_radius",
+        "actuator.rotor.frame_thickness",
+    )
+    between = values["actuator.gap"] + depth("rotor")
+    if outside not in values:
+        values[outside] = values[inside] + between + values[frame]
+    elif inside not in values:
+        values[inside] = values[outside] - between - values[frame]
+    else:
+        values[frame] = _rest(values[outside], between + values[inside])
+    thickness, carrier = "actuator.translator.thickness", "actuator.translator.carrier_thickness"
+    if thickness in values:
+        values[carrier] = _rest(values[thickness], depth("translator"))
+    elif carrier in values:
+        values[thickness] = values[carrier] + depth("translator")
+    else:
+        values[thickness] = values[inside]
+        values[carrier] = _rest(values[inside], depth("translator"))
+
+
+def _rest(whole: Any, part: Any) -> Any:
+    """The difference, exactly zero where it is one of rounding: a thickness of -1e-19 m is none that can be given."""
+    rest = whole - part
+    return rest - rest.real if abs(rest.real) <= ROUNDING * abs(whole.real) else rest
 
 
 def check(values: Values) -> None:

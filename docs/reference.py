@@ -137,7 +137,7 @@ def page() -> str:
         lines += ["", f'## Keys of kind "{kind.name}"', ""]
         for group in kind.alternatives:
             names = ", ".join(f"`{key}`" for key in group.keys)
-            lines.append(f"- Exactly {group.count} of {names}: {group.rule}.")
+            lines.append(f"- {group.demand.capitalize()} of {names}: {group.rule}.")
         lines += ["", "| key | symbol | holds | default | meaning |", "|---|---|---|---|---|"]
         for key in kind.keys:
             holds = (

@@ -111,6 +111,7 @@ def test_what_cannot_be_built_is_one_sentence(build: Any, sentence: str) -> None
 def test_what_just_touches_can_be_built(pitch: float, count: int) -> None:
     """Widths of half a pitch and arcs that fill the turn, however they round."""
     member = replace(SCREW.rotor, magnet_width=pitch / 2, arcs=Arcs(2 * math.pi / count, count, stepped=False))
-    built = replace(SCREW, pitch=pitch, rotor=member, translator=member, translator_length=4 * pitch / 2)
+    length = 4 * pitch / 2
+    built = replace(SCREW, pitch=pitch, rotor=member, translator=member, translator_length=length, frame_length=length)
     assert built.active_length == pytest.approx(2 * pitch)
     assert ARCS.fill == pytest.approx(1.0)
