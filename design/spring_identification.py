@@ -201,8 +201,8 @@ def _hysteresis(data: Measurements, slope: float, reach: float, level: float, fr
     loops = "closed loops, up to several times the way in which the hysteresis builds up"
     parameters += [
         Parameter("weight", 0.95, 0.0, 1.0, scale=0.1, told_by=loops),
-        Parameter("rising_rate", 5 / reach, 1e-3 / reach, 1e6 / reach, told_by=loops),
-        Parameter("falling_rate", 2 / reach, 0.0, 1e6 / reach, scale=5 / reach, told_by=loops),
+        Parameter("rising_rate", 5 / reach, 1e-3 / reach, 1e6 / reach, "wave number", told_by=loops),
+        Parameter("falling_rate", 2 / reach, 0.0, 1e6 / reach, "wave number", scale=5 / reach, told_by=loops),
     ]
     extra = _zero(reach, free)
     if START in free:
@@ -226,8 +226,8 @@ def _hysteresis(data: Measurements, slope: float, reach: float, level: float, fr
         level=level,
         derived={
             **_DERIVED,
-            "psi": (lambda p: float(p[3] + p[4]) / 2, None),
-            "xi": (lambda p: float(p[3] - p[4]) / 2, None),
+            "psi": (lambda p: float(p[3] + p[4]) / 2, "wave number"),
+            "xi": (lambda p: float(p[3] - p[4]) / 2, "wave number"),
         },
     )
 

@@ -30,7 +30,10 @@ def identification_plain(result: Identification) -> dict[str, Any]:
             name: {**_estimate_plain(estimate), **_difference_plain(result, name, estimate)}
             for name, estimate in found.parameters.items()
         },
-        "derived": {name: _estimate_plain(estimate) for name, estimate in found.derived.items()},
+        "derived": {
+            name: {**_estimate_plain(estimate), **_difference_plain(result, name, estimate)}
+            for name, estimate in found.derived.items()
+        },
         "residual_deviation": found.residual_deviation,
         "degrees_of_freedom": found.degrees_of_freedom,
         "condition": found.condition,
@@ -42,7 +45,7 @@ def identification_plain(result: Identification) -> dict[str, Any]:
 def identification_text(result: Identification) -> str:
     """A table for people."""
     found = result.found
-    taken = f"; {_taken(result)}" if result.model.specified else ""
+    taken = f"; {_taken(result)}" if result.taken else ""
     level = f"{found.level * 100:g} % interval"
     theirs = "specification" if result.own_spec else "template"
     columns = ["parameter", "", "estimate", level, *([theirs, "difference"] if result.given else []), ""]
@@ -60,26 +63,38 @@ def identification_text(result: Identification) -> str:
     notes = [f"scatter of the {len(found.residuals)} points about the model: {scatter}"]
     if correlated:
         notes.append(f"Parameters that correlate by more than {CORRELATED:g} trade off against each other.")
-    specification = ["", "For the specification:", "", toml_lines(result)] if result.model.specified else []
+    lines_for_it = toml_lines(result)
+    specification = ["", "For the specification:", "", lines_for_it] if lines_for_it else []
     heading = f"{result.model.name} from {found.source}: {result.rows} rows{taken}"
     return "\n".join([heading, "", *lines, "", *notes, *specification])
 
 
 def toml_lines(result: Identification) -> str:
-    """The parameters as a specification holds them, each with where it comes from; none for a model without one."""
-    if result.model.specified is None:
+    """What was found as a specification holds it, each with where it comes from; nothing where none was gone by."""
+    how = result.model.specified
+    if how is None or result.spec is None:
         return ""
-    lines = [f"[{result.model.specified.section}]"]
-    for name, estimate in result.found.parameters.items():
-        low, high = (_number(value, estimate.dimension) for value in (estimate.low, estimate.high))
-        value = _show(estimate.value, estimate)
-        reason = one_line(
-            f"identified from {result.found.source}, {result.found.level * 100:g} % interval {low} to {high}"
-            + ("" if estimate.dimension is None else f" {DIMENSIONS[estimate.dimension].preferred}")
-        )
-        quoted = value if estimate.dimension is None else json.dumps(value)
-        lines.append(f"{name} = {{ value = {quoted}, calibrated = {json.dumps(reason)} }}")
+    lines: list[str] = []
+    estimates = {**result.found.parameters, **result.found.derived}
+    for name, key in how.keys.items():
+        if name not in estimates:
+            continue
+        section, _, leaf = key.rpartition(".")
+        if f"[{section}]" not in lines:
+            lines.append(f"[{section}]")
+        lines.append(_toml_line(result, leaf, estimates[name]))
     return "\n".join(lines)
+
+
+def _toml_line(result: Identification, leaf: str, estimate: Estimate) -> str:
+    low, high = (_number(value, estimate.dimension) for value in (estimate.low, estimate.high))
+    value = _show(estimate.value, estimate)
+    reason = one_line(
+        f"identified from {result.found.source}, {result.found.level * 100:g} % interval {low} to {high}"
+        + ("" if estimate.dimension is None else f" {DIMENSIONS[estimate.dimension].preferred}")
+    )
+    quoted = value if estimate.dimension is None else json.dumps(value)
+    return f"{leaf} = {{ value = {quoted}, calibrated = {json.dumps(reason)} }}"
 
 
 def _taken(result: Identification) -> str:

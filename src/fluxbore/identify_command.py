@@ -20,7 +20,10 @@ def add_to(add: Add) -> None:
     parser.add_argument("model", metavar="MODEL", help="such as friction, of the hybrid actuator's seal")
     parser.add_argument("data", metavar="DATA", type=path_name, help="file of measurements (CSV)")
     parser.add_argument(
-        "--spec", metavar="SPEC", type=path_name, help="of the actuator that was measured; default: the template"
+        "--spec",
+        metavar="SPEC",
+        type=path_name,
+        help="of the actuator that was measured; friction takes the template without it",
     )
     parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], help="another value in SPEC")
     parser.add_argument("--level", type=_share, default=0.95, help="of confidence; default: 0.95")

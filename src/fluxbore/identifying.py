@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 
 from fluxbore.design.errors import SpecError, shown
 from fluxbore.design.identification import Identified, check_level
-from fluxbore.design.keys import Value
 from fluxbore.design.spec import Spec, loads
 from fluxbore.design.spec_file import template
 from fluxbore.reading import as_spec
@@ -22,14 +21,16 @@ if TYPE_CHECKING:
 class Specified:
     """How a model goes by a specification.
 
-    kind : of actuator. template : the specification to go by where none is given. section : of the keys that bear the
-    parameters' names. taken : what the fit takes as known from it, in SI with its dimension.
+    kind : of actuator. keys : parameter -> the key that holds it. own : what the specification itself has for a
+    parameter, in SI. template : the specification to go by where none is given; None where the fit needs none. taken :
+    what the fit takes as known from it, in SI with its dimension.
     """
 
     kind: str
-    template: str
-    section: str
-    taken: Callable[[Spec], Mapping[str, tuple[float, str]]]
+    keys: Mapping[str, str]
+    own: Callable[[Spec], Mapping[str, float]]
+    template: str | None = None
+    taken: Callable[[Spec], Mapping[str, tuple[float, str]]] = lambda spec: {}
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -38,8 +39,8 @@ class Model:
 
     symbols : parameter -> its symbol. free : parameters that are found only where asked for. measured : the dimension
     of what the model gives, and of the scatter about it. read, fit : a file's measurements, and the parameters that
-    follow from them; fit's last arguments are the level and the parameters asked for. specified : None where the fit
-    goes by the data alone; its specification is None then.
+    follow from them; fit's last arguments are the level and the parameters asked for; its specification is None where
+    none is given and none needed. specified : None where no specification holds what is found.
     """
 
     name: str
@@ -56,8 +57,8 @@ class Identification:
     """A model's parameters from a file.
 
     spec : that the fit went by, the model's template where `own_spec` is false, None where it went by the data alone.
-    rows : of the file. taken : what the fit took from it as known, in SI with its dimension. given : the
-    specification's own values of the parameters.
+    rows : of the file. taken : what the fit took from it as known, in SI with its dimension. given : what the
+    specification itself has for the parameters and for what follows from them.
     """
 
     model: Model
@@ -66,7 +67,7 @@ class Identification:
     own_spec: bool
     rows: int
     taken: Mapping[str, tuple[float, str]]
-    given: Mapping[str, Value]
+    given: Mapping[str, float]
 
 
 def identify(
@@ -79,8 +80,8 @@ def identify(
 ) -> Identification:
     """The parameters of a model ("friction", "magnetic-spring") from a CSV file, with intervals at a confidence level.
 
-    spec : the actuator that was measured; without it the model's template. free : parameters that stay as they are
-    unless asked for, such as "viscous_coefficient".
+    spec : the actuator that was measured; without it the model's template, if it has one. free : parameters that stay
+    as they are unless asked for, such as "viscous_coefficient".
 
     Raises MeasurementError where the file cannot be read, IdentificationError where it does not tell a parameter, and
     names which; SpecError for a model, a level or a parameter that is none.
@@ -92,31 +93,26 @@ def identify(
     for name in free:
         if name not in known.free:
             raise SpecError(f"free must be one of {', '.join(known.free)} for {model}; got {shown(name)}.")
-    by, taken, given = _specified(known, spec)
+    by, taken, own = _specified(known, spec)
     measured = known.read(data)
     found = known.fit(measured, by, level, free)
-    values = {name: given[name] for name in found.parameters if name in given}
-    return Identification(known, found, by, spec is not None, len(measured), taken, values)
+    given = {name: own[name] for name in (*found.parameters, *found.derived) if name in own}
+    return Identification(known, found, by, spec is not None, len(measured), taken, given)
 
 
 def _specified(
     model: Model, spec: Spec | Path | str | None
-) -> tuple[Spec | None, Mapping[str, tuple[float, str]], Mapping[str, Value]]:
-    """What a fit goes by: the specification, what it takes from it as known, and the values of its section by name."""
+) -> tuple[Spec | None, Mapping[str, tuple[float, str]], Mapping[str, float]]:
+    """What a fit goes by: the specification, what it takes from it as known, and what that has for the parameters."""
     how = model.specified
-    if how is None:
-        if spec is not None:
-            raise SpecError(f"--spec must be left out: {model.name} is identified from its data alone.")
+    if how is None and spec is not None:
+        raise SpecError(f"--spec must be left out: {model.name} is identified from its data alone.")
+    if how is None or (spec is None and how.template is None):
         return None, {}, {}
-    by = loads(template(how.template)) if spec is None else as_spec(spec)
+    by = loads(template(str(how.template))) if spec is None else as_spec(spec)
     if by.kind.name != how.kind:
         raise SpecError(f'actuator.kind must be "{how.kind}" to identify {model.name}; got "{by.kind.name}".')
-    start = f"{how.section}."
-    return (
-        by,
-        how.taken(by),
-        {key.removeprefix(start): value for key, value in by.values.items() if key.startswith(start)},
-    )
+    return by, how.taken(by), how.own(by)
 
 
 def _read_friction(path: Path | str) -> Measurements:
@@ -130,6 +126,22 @@ def _contact_area(spec: Spec) -> Mapping[str, tuple[float, str]]:
     from fluxbore.design.seal import contact_area
 
     return {"contact area": (contact_area(spec.actuator), "area")}
+
+
+_FRICTION_KEYS = {
+    name: f"actuator.seal.{name}"
+    for name in (
+        "static_coefficient",
+        "coulomb_coefficient",
+        "contact_force",
+        "stribeck_speed",
+        "viscous_coefficient",
+    )
+}
+
+
+def _own_friction(spec: Spec) -> Mapping[str, float]:
+    return {name: spec.number(key) for name, key in _FRICTION_KEYS.items()}
 
 
 def _fit_friction(measured: Measurements, spec: Spec | None, level: float, free: Sequence[str]) -> Identified:
@@ -151,17 +163,37 @@ def _read_spring(path: Path | str) -> Measurements:
     return read_measurements(path, COLUMNS, optional=(TIME,))
 
 
-def _spring(name: str, law: str, symbols: Mapping[str, str], free: tuple[str, ...] = ("zero_displacement",)) -> Model:
-    """A law of the magnetic spring, from displacement and force."""
+def _spring(
+    name: str,
+    law: str,
+    symbols: Mapping[str, str],
+    free: tuple[str, ...] = ("zero_displacement",),
+    keys: Mapping[str, str] | None = None,
+) -> Model:
+    """A law of the magnetic spring, from displacement and force. keys : parameters that a specification holds."""
+
+    def own(spec: Spec) -> Mapping[str, float]:
+        from fluxbore.design.lead_screw_spring import spring_parameters
+
+        return spring_parameters(spec, law)
 
     def fit(measured: Measurements, _: Spec | None, level: float, free: Sequence[str]) -> Identified:
         from fluxbore.design.spring_identification import identify_spring
 
         return identify_spring(law, measured, level=level, free=free)
 
-    return Model(name, {**symbols, "zero_displacement": "x_0"}, free, "force", _read_spring, fit)
+    return Model(
+        name,
+        {**symbols, "zero_displacement": "x_0"},
+        free,
+        "force",
+        _read_spring,
+        fit,
+        None if keys is None else Specified("lead-screw", keys, own),
+    )
 
 
+_STALL = {"stall_force": "benchmark.force.stall_force"}
 _SINE = {"stall_force": "F_stall", "transfer_ratio": "h", "spring_constant": "F_stall/h", "pitch": "l_p"}
 
 MODELS = {
@@ -182,7 +214,7 @@ MODELS = {
             measured="force",
             read=_read_friction,
             fit=_fit_friction,
-            specified=Specified("hybrid", "ipehla", "actuator.seal", _contact_area),
+            specified=Specified("hybrid", _FRICTION_KEYS, _own_friction, "ipehla", _contact_area),
         ),
         _spring(
             "magnetic-spring",
@@ -197,9 +229,20 @@ MODELS = {
                 "start_state": "x_s(0)",
             },
             ("zero_displacement", "start_state"),
+            {
+                **_STALL,
+                "weight": "benchmark.force.elastic_share",
+                "psi": "benchmark.force.psi",
+                "xi": "benchmark.force.xi",
+            },
         ),
-        _spring("magnetic-spring-sine", "sine", _SINE),
-        _spring("magnetic-spring-linear", "linear", {"spring_constant": "K_s"}),
+        _spring("magnetic-spring-sine", "sine", _SINE, keys=_STALL),
+        _spring(
+            "magnetic-spring-linear",
+            "linear",
+            {"spring_constant": "K_s"},
+            keys={"spring_constant": "benchmark.force.spring_constant"},
+        ),
         _spring("magnetic-spring-polynomial", "polynomial", {"k1": "k_1", "k3": "k_3", "k5": "k_5"}),
     )
 }
