@@ -114,6 +114,24 @@ def translator_magnet_mass(screw: LeadScrew) -> float:
     return _magnet_ring(screw, screw.translator, inner, outer, screw.translator_length)[0]
 
 
+def rotor_magnet_mass(screw: LeadScrew) -> float:
+    """kg, of the rotor's magnets."""
+    _, _, bore, magnets = screw.radii
+    return _magnet_ring(screw, screw.rotor, bore, magnets, screw.active_length)[0]
+
+
+def translator_mass(screw: LeadScrew, carrier_radius: float, carrier_density: float) -> float:
+    """kg, of the translator's magnets, back iron and carrier, which is a ring from `carrier_radius` (m) outwards."""
+    inner = screw.radii[0]
+    iron = inner - screw.translator.iron_thickness
+    length = screw.translator_length
+    return (
+        translator_magnet_mass(screw)
+        + _ring(iron, inner, length, screw.translator.iron_density)[0]
+        + _ring(carrier_radius, iron, length, carrier_density)[0]
+    )
+
+
 def reflected_mass(screw: LeadScrew, inertia: float) -> float:
     """kg that the rotor's inertia (kg m^2) is to a load: J/h^2."""
     return inertia / screw.h**2
@@ -159,10 +177,10 @@ def back_iron_flux_density(screw: LeadScrew) -> tuple[float | None, float | None
     inner, outer = screw.radii[0], screw.radii[-1]
     inside = (inner - screw.translator.iron_thickness, inner)
     outside = (outer, outer + screw.rotor.iron_thickness)
-    return _along(screw, float(passed[0]), *inside), _along(screw, float(passed[1]), *outside)
+    return along_iron(screw, float(passed[0]), *inside), along_iron(screw, float(passed[1]), *outside)
 
 
-def _along(screw: LeadScrew, passed: float, inner: float, outer: float) -> float | None:
+def along_iron(screw: LeadScrew, passed: float, inner: float, outer: float) -> float | None:
     """T, of a flux per angle (T m^2) in a ring of iron: across a helix the way is shorter than along the axis."""
     if outer <= inner:
         return None

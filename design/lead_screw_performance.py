@@ -30,7 +30,7 @@ class LeadScrewFigures:
     force_ripple: float | None = figure(
         "fraction",
         FORCE,
-        "peak to peak over a turn at the stall, over the stall force, where the magnets of both members climb in steps",
+        "peak to peak over a turn at the stall, over the stall force; zero unless both members' magnets are cut",
     )
     spring_constant: float | None = figure(
         "stiffness", SPRING, "slope of the force over the relative displacement at rest, with all harmonics"
@@ -38,8 +38,8 @@ class LeadScrewFigures:
     load_displacement: float | None = figure(
         "length", SPRING, "relative displacement under the load at rest; none beyond the stall force"
     )
-    spring_energy: float | None = figure("energy", SPRING, "stored on the way to the next pole, where the screw slips")
-    slip_work: float | None = figure("energy", SPRING, "that the load does at each slip by one pitch")
+    spring_energy: float | None = figure("work", SPRING, "stored on the way to the next pole, where the screw slips")
+    slip_work: float | None = figure("work", SPRING, "that the load does at each slip by one pitch")
     natural_frequency: float | None = figure("frequency", SPRING, "of the mover on the spring, the rotor held")
     transfer_ratio: float | None = figure("transfer ratio", DRIVE, "angle of the rotor over the way of its field: 1/h")
     motor_torque: float | None = figure(
@@ -55,10 +55,16 @@ class LeadScrewFigures:
         "acceleration", DRIVE, "that the screw can give the mover under the load before it slips", signed=True
     )
     harmonic_ratio_2: float | None = figure(
-        "fraction", FIELD, "second harmonic of the force over its first, K_2/K_1: that of three periods in a pitch"
+        "fraction",
+        FIELD,
+        "second harmonic of the force over its first, K_2/K_1: that of three periods in a pitch",
+        signed=True,
     )
     harmonic_ratio_3: float | None = figure(
-        "fraction", FIELD, "third harmonic of the force over its first, K_3/K_1: that of five periods in a pitch"
+        "fraction",
+        FIELD,
+        "third harmonic of the force over its first, K_3/K_1: that of five periods in a pitch",
+        signed=True,
     )
     translator_iron_flux_density: float | None = figure(
         "flux density", FIELD, "mean over the section of the iron behind the translator's magnets, largest along it"

@@ -46,7 +46,9 @@ class Performance(LeadScrewFigures):
     force_constant_density: float | None = figure(
         "force constant density", FORCE, "force constant over the same volume"
     )
-    moving_mass: float | None = figure("mass", SIZE, "shaft, magnets, rings and pistons")
+    moving_mass: float | None = figure(
+        "mass", SIZE, "of the mover: shaft, magnets, rings and pistons, or a rotor and what it carries"
+    )
     total_mass: float | None = figure("mass", SIZE, "all parts")
     stray_field: float | None = figure(
         "flux density",
@@ -69,7 +71,8 @@ class Performance(LeadScrewFigures):
     demagnetised_fraction: float | None = figure(
         "fraction",
         FIELD,
-        "share of the magnets' volume whose reverse field exceeds the intrinsic coercivity at temperature",
+        "share of the magnets' volume whose reverse field exceeds the intrinsic coercivity at temperature; of a lead "
+        "screw half a pitch from rest, where it slips",
     )
     electric_loading: float | None = figure(
         "electric loading", WINDING, "peak K_sp of the sinusoidal current sheet at the spec's current"
@@ -122,7 +125,8 @@ class Performance(LeadScrewFigures):
         "fraction",
         FIELD,
         "reverse field in the magnets over their intrinsic coercivity at temperature, by its 8-norm over their volume; "
-        "the worst of no current over the window and the peak current of either sign",
+        "the worst of no current over the window and the peak current of either sign; of a lead screw half a pitch "
+        "from rest, where it slips",
     )
     peak_demagnetised_fraction: float | None = figure(
         "fraction", FIELD, "the demagnetised fraction at the peak current, on the q axis of either sign"
@@ -246,7 +250,9 @@ class Performance(LeadScrewFigures):
     cylinder_wall: float | None = figure("length", SIZE, "wall of the air cylinder")
     magnet_wall: float | None = figure("length", SIZE, "radial wall of the magnets: (D_m - D_s)/2")
     outer_diameter: float | None = figure("length", SIZE, "of the whole actuator")
-    length: float | None = figure("length", SIZE, "of the stator over its end caps")
+    length: float | None = figure(
+        "length", SIZE, "of the stator over its end caps; of a lead screw in the middle of the stroke"
+    )
     # Coils in free space.
     stored_energy: float | None = figure("energy", FIELD, "of the magnetic field of all coils")
     central_flux_density: float | None = figure("flux density", FIELD, "on the axis at z = 0")

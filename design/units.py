@@ -93,6 +93,7 @@ DIMENSIONS: dict[str, Dimension] = {
             {"A/mm^2": Unit(1e6), "A/cm^2": Unit(1e4), "A/m^2": Unit(1.0), "MA/m^2": Unit(1e6)},
         ),
         Dimension("energy", "J", "MJ", _scaled(J=1.0, kJ=1e3, MJ=1e6)),
+        Dimension("work", "J", "J", _scaled(J=1.0, mJ=1e-3, kJ=1e3)),
         Dimension("electric loading", "A/m", "A/m", {"A/m": Unit(1.0), "kA/m": Unit(1e3), "A/mm": Unit(1e3)}),
         Dimension("time", "s", "s", _scaled(s=1.0, ms=1e-3, min=60.0, h=3600.0)),
         Dimension("volume", "m^3", "mm^3", {"mm^3": Unit(1e-9), "cm^3": Unit(1e-6), "m^3": Unit(1.0)}),

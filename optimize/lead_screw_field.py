@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 from fluxbore.design.errors import DesignError
 from fluxbore.design.lead_screw import LeadScrew
 from fluxbore.design.lead_screw_values import LeadScrewActuator
-from fluxbore.design.materials import SoftIron, lookup
+from fluxbore.design.materials import PermanentMagnet, SoftIron, lookup
 from fluxbore.design.spec import Spec
 
 if TYPE_CHECKING:
@@ -35,6 +35,10 @@ lines meet as they do at rest. With the slope at rest they give harmonics up to 
 
 REST = 1e-3
 """Of the pitch: near enough to rest that the force over it is the slope to 1e-5, and far enough for its digits."""
+
+LOAD_EXPONENT = 8.0
+"""p of the mean of (reverse field)^p over the magnets. The field is infinite where poles meet, so that the largest
+value is a number of the mesh; this one is of the volume."""
 
 SLIPPING = 0.5
 """Of the pitch: equal poles face each other, which the magnets bear at every slip."""
@@ -146,6 +150,34 @@ def solve_field(spec: Spec, screw: LeadScrew) -> LeadScrewField:
     return field
 
 
+def field_figures(spec: Spec, field: LeadScrewField) -> dict[str, float | None]:
+    """What the fields give beside the force, by figure: flux along the iron at rest, where both members' add up, and
+    the magnets' reverse field where the screw slips. Of arcs only the mean is computed, thinner than any magnet."""
+    from fluxbore.design.lead_screw_figures import along_iron
+    from fluxbore.fem.helical_flux import flux_function
+    from fluxbore.fem.helical_iron_flux import layer_flux
+    from fluxbore.fem.helical_magnets import demagnetised_fraction, mean_load, reverse_load
+
+    screw, names = field.screw, [layer.name for layer in field.rest.section.layers]
+    found: dict[str, float | None] = {}
+    psi = flux_function(field.rest) if {"translator iron", "rotor iron"} & set(names) else None
+    for member in ("translator", "rotor"):
+        figure, iron = f"{member}_iron_flux_density", f"{member} iron"
+        if psi is None or iron not in names:
+            found[figure] = None
+            continue
+        layer = names.index(iron)
+        passed = layer_flux(field.rest, psi, layer)
+        found[figure] = along_iron(screw, passed, *field.rest.section.radii[layer : layer + 2])
+    whole = screw.translator.arcs is None and screw.rotor.arcs is None
+    if field.slipping is not None and whole:
+        limits = {names.index(f"{member} magnets"): _coercivity(spec, member) for member in ("translator", "rotor")}
+        state = reverse_load(field.slipping, limits)
+        found["demagnetised_fraction"] = demagnetised_fraction(*state)
+        found["demagnetisation_load"] = mean_load(*state, LOAD_EXPONENT)
+    return found
+
+
 def check_force(spec: Spec, peak: float) -> None:
     """Raise DesignError, one sentence, where the peak (N) of the force over the first quarter is not above zero: arcs
     so long that their steps turn the poles over."""
@@ -178,6 +210,13 @@ def _solve(
         if not near.convergence.converged:
             break
     return solved
+
+
+def _coercivity(spec: Spec, member: str) -> float:
+    """A/m, of a member's magnets at their temperature."""
+    key = f"actuator.{member}.magnet"
+    grade = lookup(spec.word(key), key, spec.materials, PermanentMagnet)
+    return grade.coercivity_at(spec.number("operating_point.magnet_temperature"))
 
 
 def _curve(spec: Spec, member: str, iron: str, thickness: float) -> BHCurve | None:

@@ -1,35 +1,61 @@
-"""The figures of a magnetic lead screw: from the analytic field, and from finite elements over one pitch."""
+"""The figures of a magnetic lead screw: from the analytic field, and from finite elements over one pitch.
+
+Both routes fill the same `Performance` from a force over displacement; what neither field decides (masses, inertia, the
+gear) is computed once, by the same functions, for both.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
-from fluxbore.design.lead_screw_figures import spring_constant
-from fluxbore.design.performance import Performance
 from fluxbore.design.spec import Spec
 from fluxbore.optimize.evaluation import NOT_CONVERGED, OK, Evaluation, failure
-from fluxbore.optimize.lead_screw_field import check_force, magnetised, periods, solve_field
+from fluxbore.optimize.lead_screw_common import amplitudes, common_figures, complete, warnings
+from fluxbore.optimize.lead_screw_field import check_force, field_figures, magnetised, periods, solve_field
 
 
 def by_network(spec: Spec, gradient: Sequence[str] = ()) -> Evaluation:
     """The analytic field's figures, iron taken for infinitely permeable. Raises DesignError or MaterialError."""
     from fluxbore.design.helical_field import force_series
+    from fluxbore.design.lead_screw_figures import back_iron_flux_density
 
-    series = force_series(magnetised(spec))
-    check_force(spec, series.peak[1])
+    screw = magnetised(spec)
+    series = force_series(screw)
+    place, peak = series.peak
+    check_force(spec, peak)
+    inside, outside = back_iron_flux_density(screw)
+    field = {"translator_iron_flux_density": inside, "rotor_iron_flux_density": outside}
+    performance = complete(spec, screw, series, peak, field)
+    details = {"stall_displacement": place, **amplitudes(series)}
     return Evaluation(
-        "network", OK, (), Performance(stall_force=series.peak[1], spring_constant=spring_constant(series))
+        "network", OK, (), performance, details=details, warnings=warnings(spec, performance, ideal_iron=True)
     )
 
 
 def by_fem(spec: Spec, gradient: Sequence[str] = ()) -> Evaluation:
     """The helical field's figures, with the iron's curves. Raises DesignError or MaterialError."""
-    from fluxbore.fem.helical_force import force
+    from fluxbore.fem.helical_force import force, torque
 
     screw = magnetised(spec)
+    common_figures(spec, screw)  # what cannot be built is refused before anything is solved
     field = solve_field(spec, screw)
     if field.failure is not None:
         where, convergence = field.failure
         return failure("fem", NOT_CONVERGED, where + convergence.sentence())
+    series, states = field.series, list(field.solved)
     stall = force(field.stall) * periods(screw)
-    return Evaluation("fem", OK, (), Performance(stall_force=stall, spring_constant=spring_constant(field.series)))
+    performance = complete(spec, screw, series, stall, field_figures(spec, field))
+    place, topology = field.stall.section.displacement, field.rest.system.topology
+    details = {
+        "elements": float(topology.elements.shape[0]),
+        "unknowns": float(topology.unknowns),
+        "newton_iterations": float(sum(item.convergence.iterations for item in states)),
+        "largest_residual": max(item.convergence.residual for item in states),
+        "stall_displacement": place,
+        "torque_over_h_force": torque(field.stall) / (screw.h * force(field.stall)),
+        "series_miss": float(series.force(place)) / stall - 1,
+        **amplitudes(series),
+    }
+    return Evaluation(
+        "fem", OK, (), performance, details=details, warnings=warnings(spec, performance, ideal_iron=False)
+    )

@@ -33,6 +33,7 @@ INDEPENDENT = {
     "resistance": {"ohm": 1.0, "mohm": 1e-3},
     "current density": {"A/mm^2": 1e6, "A/cm^2": 1e4, "A/m^2": 1.0, "MA/m^2": 1e6},
     "energy": {"J": 1.0, "kJ": 1e3, "MJ": 1e6},
+    "work": {"J": 1.0, "mJ": 1e-3, "kJ": 1e3},
     "electric loading": {"A/m": 1.0, "kA/m": 1e3, "A/mm": 1e3},
     "time": {"s": 1.0, "ms": 1e-3, "min": 60.0, "h": 3600.0},
     "volume": {"mm^3": 1e-9, "cm^3": 1e-6, "m^3": 1.0},
