@@ -53,14 +53,14 @@ class Bands:
 
     def remanence(self, share: Floats) -> Floats:
         """(...) T at u (...), any period of it."""
-        part, along = self._located(share)
+        part, along = self.located(share)
         first = np.array([segment.first for segment in self.segments])[part]
         last = np.array([segment.last for segment in self.segments])[part]
         return np.asarray(first + (last - first) * along)
 
     def magnets(self, share: Floats) -> NDArray[np.bool_]:
         """(...) whether there is magnet at u (...)."""
-        part, _ = self._located(share)
+        part, _ = self.located(share)
         return np.array([segment.magnet for segment in self.segments])[part]
 
     @property
@@ -85,7 +85,7 @@ class Bands:
             total += (part.last * at_end - part.first * at_start) / wave - slope * (at_end - at_start) / wave**2
         return complex(2 * total)
 
-    def _located(self, share: Floats) -> tuple[NDArray[np.int_], Floats]:
+    def located(self, share: Floats) -> tuple[NDArray[np.int_], Floats]:
         """Segment at each u, and how far along it u lies, from 0 to 1."""
         starts = np.array(self.breaks)
         ends = np.array([part.end for part in self.segments])
