@@ -1,7 +1,8 @@
 """An actuator as a list of parts: turned profiles with radial cross-holes, their volumes, clearances and overlaps.
 
 Everything here is arithmetic on polygons in the (r, z) half plane, so that masses and clearances need no CAD kernel and
-can check one. Lengths are in metres, angles in radians.
+can check one; what follows a helix is a `HelicalPart`, whose polygons lie in (θ, z). Lengths are in metres, angles in
+radians.
 """
 
 from __future__ import annotations
@@ -15,6 +16,9 @@ from functools import lru_cache
 import numpy as np
 
 from fluxbore.design.errors import DesignError
+from fluxbore.geometry import helical_part
+from fluxbore.geometry.helical_clearance import overlap as helical_overlap
+from fluxbore.geometry.helical_part import RESOLUTION, HelicalPart
 
 Point = tuple[float, float]
 """(r, z) in metres."""
@@ -26,9 +30,6 @@ Edge = tuple[Point, Point]
 
 Colour = tuple[float, float, float]
 """Red, green and blue, sRGB, 0 to 1."""
-
-RESOLUTION = 1e-10
-"""m. Shorter overlaps are the rounding of coordinates that were meant to be equal."""
 
 _NODES, _WEIGHTS = (column.tolist() for column in np.polynomial.legendre.leggauss(24))
 
@@ -53,7 +54,8 @@ class Part:
 
     group : "stator" or "mover". role : what it is, the same word for all alike ("coil").
     profile : counter-clockwise, r >= 0 (m). note : what a name does not say, such as the direction of magnetisation.
-    fill : share of the volume that is the material; a coil is drawn as its whole window.
+    material : its name; none ("") where only the envelope is known. fill : share of the volume that is the material; a
+    coil is drawn as its whole window.
     """
 
     name: str
@@ -71,19 +73,26 @@ class Part:
             raise DesignError(f"The outline of the {self.name} must enclose one area without crossing itself.")
 
 
+Body = Part | HelicalPart
+"""Whatever can be in an assembly; its ``profile`` is its own, or the envelope of one that follows a helix."""
+
+
 @dataclass(frozen=True, slots=True)
 class Assembly:
     """Parts where they stand at one position of the mover (m).
 
     squeezes : pairs of part names that are drawn overlapping on purpose, because one of them yields.
+    outside : the group that pictures cut open. carried_mass : kg, of what moves with the mover and is not drawn.
     """
 
     name: str
-    parts: tuple[Part, ...]
+    parts: tuple[Body, ...]
     position: float
     squeezes: tuple[tuple[str, str], ...] = ()
+    outside: str = "stator"
+    carried_mass: float = 0.0
 
-    def part(self, name: str) -> Part:
+    def part(self, name: str) -> Body:
         return next(part for part in self.parts if part.name == name)
 
 
@@ -102,18 +111,22 @@ def rectangle(inner_radius: float, outer_radius: float, start: float, end: float
     return (inner_radius, start), (outer_radius, start), (outer_radius, end), (inner_radius, end)
 
 
-def volume(part: Part) -> float:
-    """Volume (m^3): Pappus on the polygon, less the quadrature of each hole."""
+def volume(part: Body) -> float:
+    """Volume (m^3): Pappus on the polygon, less the quadrature of each hole; closed for what follows a helix."""
+    if isinstance(part, HelicalPart):
+        return helical_part.volume(part)
     return _turned(part.profile)[0] - sum(_drilled(part.profile, hole)[0] for hole in part.holes)
 
 
-def mass(part: Part, density: float) -> float:
+def mass(part: Body, density: float) -> float:
     """Mass (kg) of the part's material at this density (kg/m^3)."""
     return density * part.fill * volume(part)
 
 
-def centre_of_mass(part: Part) -> tuple[float, float, float]:
+def centre_of_mass(part: Body) -> tuple[float, float, float]:
     """(x, y, z) of a homogeneous part (m)."""
+    if isinstance(part, HelicalPart):
+        return helical_part.centre_of_mass(part)
     whole, along = _turned(part.profile)
     across = [0.0, 0.0]
     for hole in part.holes:
@@ -223,17 +236,41 @@ def overlap(first: Profile, second: Profile) -> float:
 
 
 def interferences(assembly: Assembly) -> tuple[Interference, ...]:
-    """Every pair of parts that share a volume. Cross-holes are left out of account, so that the answer errs safely."""
+    """Every pair of parts that share a volume. Cross-holes are left out of account, so that the answer errs safely.
+
+    Beside a turned part one that follows a helix counts with its envelope; two of them are held against each other.
+    """
     allowed = {frozenset(pair) for pair in assembly.squeezes}
     return tuple(
         Interference(a.name, b.name, shared, frozenset((a.name, b.name)) in allowed)
-        for a, b in itertools.combinations(assembly.parts, 2)
-        if (shared := overlap(a.profile, b.profile)) > 0
+        for a, b in _near(assembly.parts)
+        if (shared := _shared(a, b)) > 0
     )
 
 
-def clearance(first: Part, second: Part) -> float:
-    """Shortest distance between two parts (m); 0 where they touch or overlap. Cross-holes are left out of account."""
+def _near(parts: tuple[Body, ...]) -> Iterator[tuple[Body, Body]]:
+    """The pairs whose envelopes meet, all at once for each part: of hundreds of magnets few are neighbours."""
+    if not parts:
+        return
+    inner, outer, low, high = np.array([_box(part.profile) for part in parts]).T
+    for i, part in enumerate(parts):
+        later = slice(i + 1, None)
+        meet = (inner[later] < outer[i]) & (outer[later] > inner[i]) & (low[later] < high[i]) & (high[later] > low[i])
+        for j in np.flatnonzero(meet):
+            yield part, parts[i + 1 + int(j)]
+
+
+def _shared(first: Body, second: Body) -> float:
+    if isinstance(first, HelicalPart) and isinstance(second, HelicalPart):
+        return helical_overlap(first, second)
+    return overlap(first.profile, second.profile)
+
+
+def clearance(first: Body, second: Body) -> float:
+    """Shortest distance between two parts (m); 0 where they touch or overlap. Cross-holes are left out of account.
+
+    What follows a helix counts with its envelope; `fluxbore.geometry.helical_clearance` has the gaps between two.
+    """
     if overlap(first.profile, second.profile) > 0:
         return 0.0
     gap = min(

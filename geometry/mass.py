@@ -6,21 +6,25 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from fluxbore.design.materials import Material
-from fluxbore.geometry.assembly import Assembly, Part, mass, volume
+from fluxbore.geometry.assembly import Assembly, Body, mass, volume
 
 
 @dataclass(frozen=True, slots=True)
 class PartMass:
-    """One line of the parts list: volume of the part as drawn (m³) and its mass (kg)."""
+    """One line of the parts list: volume of the part as drawn (m³) and its mass (kg), 0 of a mere envelope."""
 
-    part: Part
+    part: Body
     volume: float
     mass: float
 
 
 def part_masses(assembly: Assembly, materials: Mapping[str, Material]) -> tuple[PartMass, ...]:
     """Every part with its volume and mass, in the assembly's order."""
-    return tuple(PartMass(part, volume(part), mass(part, materials[part.material].density)) for part in assembly.parts)
+    return tuple(PartMass(part, volume(part), _mass(part, materials)) for part in assembly.parts)
+
+
+def _mass(part: Body, materials: Mapping[str, Material]) -> float:
+    return mass(part, materials[part.material].density) if part.material else 0.0
 
 
 def total(rows: tuple[PartMass, ...], group: str | None = None) -> float:

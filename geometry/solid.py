@@ -15,14 +15,18 @@ import numpy.typing as npt
 
 from fluxbore.design.errors import DesignError, MissingLibraryError
 from fluxbore.design.graphics import APT_LINE, has_gl
-from fluxbore.geometry.assembly import Assembly, Colour, Hole, Part
+from fluxbore.geometry.assembly import Assembly, Body, Colour, Hole, Part, volume
+from fluxbore.geometry.helical_mesh import triangles
+from fluxbore.geometry.helical_part import HelicalPart
+from fluxbore.geometry.helical_solid import MILLIMETRE, helical_solid
 
 if TYPE_CHECKING:
     import cadquery
 
-MILLIMETRE = 1e-3
-
 QUARTER = math.pi / 2
+
+BALANCE = 1e-7
+"""Relative difference of volumes at which a helical solid is not what its outline says."""
 
 ANGULAR_TOLERANCE = 0.1
 """rad between neighbouring facets: 63 to a turn."""
@@ -50,13 +54,24 @@ def load_cadquery() -> ModuleType:
     return module
 
 
-def solid(part: Part, opening: float = 0.0) -> cadquery.Solid:
+def solid(part: Body, opening: float = 0.0) -> cadquery.Solid:
     """One valid closed solid, in mm.
 
-    opening : the sector from angle 0 (+x) to this one (rad) is left out of the revolution, for a look inside.
-    Raises DesignError where the kernel does not make exactly one such body of the part.
+    opening : the sector from angle 0 (+x) to this one (rad) is left out of a revolution, for a look inside; what
+    follows a helix stays whole. Raises DesignError where the kernel does not make exactly one such body of the part.
     """
     cq = load_cadquery()
+    body = helical_solid(part) if isinstance(part, HelicalPart) else _turned(cq, part, opening)
+    if not body.isValid() or not is_closed(body) or not (found := kernel_volume(body)) > 0:
+        raise DesignError(f"The {part.name} must be one valid closed solid; the CAD kernel made an invalid one.")
+    if isinstance(part, HelicalPart) and abs(found - (exact := volume(part))) > BALANCE * exact:
+        raise DesignError(
+            f"The {part.name} must have {exact * 1e9:.9g} mm^3; the CAD kernel made it with {found * 1e9:.9g} mm^3."
+        )
+    return body
+
+
+def _turned(cq: ModuleType, part: Part, opening: float) -> cadquery.Solid:
     corners = [
         cq.Vector(r * math.cos(opening) / MILLIMETRE, r * math.sin(opening) / MILLIMETRE, z / MILLIMETRE)
         for r, z in part.profile
@@ -65,10 +80,7 @@ def solid(part: Part, opening: float = 0.0) -> cadquery.Solid:
     body = cq.Solid.revolve(wire, [], 360 - math.degrees(opening), cq.Vector(0, 0, 0), cq.Vector(0, 0, 1))
     for hole in part.holes:
         body = _one_solid(body.cut(_drill(cq, part, hole)), part)
-    body = _one_solid(body, part)
-    if not body.isValid() or not is_closed(body) or not kernel_volume(body) > 0:
-        raise DesignError(f"The {part.name} must be one valid closed solid; the CAD kernel made an invalid one.")
-    return body
+    return _one_solid(body, part)
 
 
 def is_closed(body: cadquery.Shape) -> bool:
@@ -92,14 +104,19 @@ def kernel_volume(body: cadquery.Shape) -> float:
 def tessellate(assembly: Assembly, tolerance: float, cut_away: bool = False) -> list[Mesh]:
     """Triangles of every part, in the assembly's order, no farther than ``tolerance`` (m) from the surface.
 
-    cut_away : the stator lacks the quarter from +x to +y, whose first face shows the ports cut; the mover stays whole.
+    cut_away : the group outside lacks the quarter from +x to +y, whose first face shows the ports cut; the other stays
+    whole. A part of which nothing is left then has no triangles.
     """
     meshes = []
     for part in assembly.parts:
-        body = solid(part, QUARTER if cut_away and part.group == "stator" else 0.0)
-        vertices, triangles = body.tessellate(tolerance / MILLIMETRE, ANGULAR_TOLERANCE)
+        opening = QUARTER if cut_away and part.group == assembly.outside else 0.0
+        if isinstance(part, HelicalPart):
+            meshes.append(Mesh(part.name, part.colour, *triangles(part, tolerance, ANGULAR_TOLERANCE, opening)))
+            continue
+        body = solid(part, opening)
+        vertices, corners = body.tessellate(tolerance / MILLIMETRE, ANGULAR_TOLERANCE)
         points = np.array([vertex.toTuple() for vertex in vertices], dtype=np.float64) * MILLIMETRE
-        meshes.append(Mesh(part.name, part.colour, points, np.array(triangles, dtype=np.int64)))
+        meshes.append(Mesh(part.name, part.colour, points, np.array(corners, dtype=np.int64)))
     return meshes
 
 
