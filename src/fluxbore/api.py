@@ -9,8 +9,8 @@ from tempfile import TemporaryFile
 from time import monotonic
 from typing import Literal
 
-from fluxbore.actuators import actuator_of
-from fluxbore.design.errors import FluxboreError, OutputError
+from fluxbore.actuators import ACTUATORS, actuator_of
+from fluxbore.design.errors import FluxboreError, OutputError, SpecError
 from fluxbore.design.spec import Spec
 from fluxbore.design_result import DesignResult, judged
 from fluxbore.design_steps import every_design, search_design, with_front, with_tolerances
@@ -25,7 +25,7 @@ from fluxbore.optimize.journal import Journal
 from fluxbore.optimize.progress import Report as ProgressReport
 from fluxbore.optimize.search import check_study, one_at_a_time
 from fluxbore.optimize.sweep import run_sweeps
-from fluxbore.reading import as_spec, load, need
+from fluxbore.reading import as_spec, load
 from fluxbore.report_file import REPORT_FILE, write_report_file
 from fluxbore.simulating import simulate
 from fluxbore.studies import optimize, pareto, robust, sweep, tolerance
@@ -169,8 +169,9 @@ def _write_femm(spec: Spec, folder: Path | str, force: bool) -> Path:
     from fluxbore.geometry.step import file_name
 
     make = actuator_of(spec).femm_model
-    need(make is not None, "actuator.kind", "a FEMM model")
-    assert make is not None
+    if make is None:
+        able = " or ".join(f'"{kind}"' for kind, verbs in ACTUATORS.items() if verbs.femm_model is not None)
+        raise SpecError(f'actuator.kind must be {able} for a FEMM model; got "{spec.kind.name}".')
     text = write_text(make(spec))
     with open_folder(folder, spec, force) as place:
         return place.write(f"{file_name(spec.word('actuator.name'))}.fem", text)
