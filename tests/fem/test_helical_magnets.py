@@ -9,6 +9,8 @@ import pytest
 from lead_screws import PITCH, table_i
 
 from fluxbore.design.helical_field import GAP, ROTOR, TRANSLATOR, gap_field, harmonics, pattern, stack
+from fluxbore.design.lead_screw_figures import along_iron, back_iron_flux_density
+from fluxbore.design.materials import standard
 from fluxbore.design.radial_stack import solve as closed
 from fluxbore.fem.element import positions
 from fluxbore.fem.helical import HelicalSolution, solve
@@ -86,17 +88,12 @@ def test_the_share_beyond_counts_volume() -> None:
     assert mean_load(weight, -np.abs(load), 8.0) == 0.0
 
 
-def test_flux_along_a_layer_in_closed_form() -> None:
-    """∫(r B_z − h B_θ) dr across the gap, by Bessel functions and Gauss' rule; catches a flux of another layer, or one
-    that takes the helix for rings."""
+def test_flux_along_thick_iron_in_closed_form() -> None:
+    """Against iron of infinite permeability by Bessel functions; catches another layer, or a helix taken for rings."""
     screw = replace(SCREW, starts=6)
-    found = solve(helical_section(screw, 0.1 * PITCH))
-    inner, outer = screw.translator_radius, screw.bore_radius
-    nodes, weights = np.polynomial.legendre.leggauss(8)
-    zeta = np.linspace(0.0, PITCH / 2, 101)
-    flux = np.zeros_like(zeta)
-    for share, part in zip((nodes + 1) / 2, weights / 2, strict=True):
-        r = inner + share * (outer - inner)
-        _, around, along = gap_field(screw, r, zeta, 0.1 * PITCH)
-        flux += part * (outer - inner) * (r * along - screw.h * around)
-    assert layer_flux(found, flux_function(found), 1) == pytest.approx(np.abs(flux).max(), rel=3e-3)
+    steel = standard()["1010"].curve
+    found = solve(helical_section(screw, 0.0, steel, steel))
+    psi = flux_function(found)
+    for layer, expected in zip((1, 5), back_iron_flux_density(screw), strict=True):
+        inner, outer = found.section.radii[layer : layer + 2]
+        assert along_iron(screw, layer_flux(found, psi, layer), inner, outer) == pytest.approx(expected, rel=0.01)
