@@ -15,6 +15,7 @@ from dataclasses import replace
 import numpy as np
 
 from fluxbore.fem.element import kernel, positions, stiffness
+from fluxbore.fem.factors import Factor
 from fluxbore.fem.field import CORNERS_AND_MIDDLES, FluxMap
 from fluxbore.fem.helical import HelicalSolution
 from fluxbore.fem.linear import factorise
@@ -29,16 +30,20 @@ def flux_function(solution: HelicalSolution) -> Floats:
 
     Its mean over a period is zero where the mesh is half a period, else it is zero at one node.
     """
-    system = solution.system
-    topology = _free(system.topology)
-    rows, weight = kernel(system.mesh).curl, kernel(system.mesh).weight
-    r, b = positions(system.mesh)[..., 0], solution.flux_density()
+    topology, factor = flux_equations(solution)
+    mesh, b = solution.system.mesh, solution.flux_density()
+    found, r = kernel(mesh), positions(mesh)[..., 0]
     slopes = np.stack((r * b[..., 2] - solution.section.transfer_ratio * b[..., 1], -r * b[..., 0]), axis=-1)
-    pull = np.einsum("mqkn,mqk,mq->mn", rows, slopes, weight, optimize=True)
-    nodal = np.bincount(system.mesh.elements.ravel(), pull.ravel(), topology.freedom.size)
-    load = topology.gather(np.asarray(nodal, dtype=float))
-    values = topology.pattern.assemble(stiffness(rows, weight))
-    return topology.spread(factorise(topology.pattern, values, "superlu").solve(load))
+    pull = np.einsum("mqkn,mqk,mq->mn", found.curl, slopes, found.weight, optimize=True)
+    nodal = np.bincount(mesh.elements.ravel(), pull.ravel(), topology.freedom.size)
+    return topology.spread(factor.solve(topology.gather(np.asarray(nodal, dtype=float))))
+
+
+def flux_equations(solution: HelicalSolution) -> tuple[Topology, Factor]:
+    """The unknowns of ψ and the matrix of its least squares, factorised."""
+    topology, found = _free(solution.system.topology), kernel(solution.system.mesh)
+    values = topology.pattern.assemble(stiffness(found.curl, found.weight))
+    return topology, factorise(topology.pattern, values, "superlu")
 
 
 def flux_map(solution: HelicalSolution, start: float, end: float) -> FluxMap:

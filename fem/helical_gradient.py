@@ -30,13 +30,17 @@ from fluxbore.fem.reluctivity import VACUUM_PERMEABILITY
 
 
 class HelicalAdjoint:
-    """A converged solution, prepared for gradients: its tangent is factorised once for all figures."""
+    """A converged solution, prepared for gradients: its tangent is factorised once for all figures.
+
+    slopes : (m, q, 2) ∇φ (A/m) at the quadrature points. stretch : (m, q) 1 + h²/r². permeability, permeability_slope :
+    (m, q) μ (H/m) and dμ/d|H|².
+    """
 
     def __init__(self, solution: HelicalSolution) -> None:
         self.solution, self.frame = solution, Frame(solution)
-        self._p = self.frame.slopes(solution.phi)
-        self._stretch = 1 + (solution.section.transfer_ratio / self.frame.r) ** 2
-        self._mu, self._mu_slope = self._materials()
+        self.slopes = self.frame.slopes(solution.phi)
+        self.stretch = 1 + (solution.section.transfer_ratio / self.frame.r) ** 2
+        self.permeability, self.permeability_slope = self._materials()
 
     def force(self) -> Floats:
         """(numbers,) of the axial force (N per period), `helical_force.force`, by the section's `numbers`, SI."""
@@ -44,10 +48,10 @@ class HelicalAdjoint:
         first, last = section.gap_radii
         stress = np.zeros((grid.layer.size, 1))
         stress[grid.gap] = 2 * np.pi * grid.copies * VACUUM_PERMEABILITY / (last - first)
-        product = self._p[..., 0] * self._p[..., 1]
+        product = self.slopes[..., 0] * self.slopes[..., 1]
         none = np.zeros_like(r)
-        by_slopes = (stress * r)[..., None] * self._p[..., ::-1]
-        density = Density(stress * r * product, ((self._p, by_slopes),), stress * product, none, none, none)
+        by_slopes = (stress * r)[..., None] * self.slopes[..., ::-1]
+        density = Density(stress * r * product, ((self.slopes, by_slopes),), stress * product, none, none, none)
         found = self.total(density)
         # The mean over the gap divides by its width.
         found[section.gap : section.gap + 2] += np.array([1.0, -1.0]) * force(self.solution) / (last - first)
@@ -62,9 +66,9 @@ class HelicalAdjoint:
 
     def _residual(self, adjoint: Floats) -> Density:
         """That of λᵀR."""
-        p, q, r = self._p, self.frame.slopes(adjoint), self.frame.r
-        mu, mu_slope, remanence = self._mu, self._mu_slope, self.solution.system.remanence
-        metric = np.stack((np.ones_like(r), self._stretch), axis=-1)
+        p, q, r = self.slopes, self.frame.slopes(adjoint), self.frame.r
+        mu, mu_slope, remanence = self.permeability, self.permeability_slope, self.solution.system.remanence
+        metric = np.stack((np.ones_like(r), self.stretch), axis=-1)
         product = np.sum(p * metric * q, axis=-1)
         by_p = (r[..., None] * metric) * (mu[..., None] * q + (2 * mu_slope * product)[..., None] * p)
         by_q = (r * mu)[..., None] * metric * p
@@ -92,7 +96,7 @@ class HelicalAdjoint:
         system = self.solution.system
         mu = np.repeat(system.mu[:, None], self.frame.r.shape[1], axis=1)
         slope = np.zeros_like(mu)
-        squared = self._p[..., 0] ** 2 + self._stretch * self._p[..., 1] ** 2
+        squared = self.slopes[..., 0] ** 2 + self.stretch * self.slopes[..., 1] ** 2
         for number, curve in system.curves.items():
             here = system.grid.layer == number
             mu[here], slope[here] = permeability(curve, squared[here])

@@ -5,45 +5,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from helical_sections import EXACTLY, Array, difference, from_numbers, members, random_changes, sections
 from lead_screws import ARCS, PITCH, table_i
 
-from fluxbore.design.lead_screw import LeadScrew
-from fluxbore.design.materials import standard
-from fluxbore.fem.helical import SETTINGS, HelicalSolution, solve
+from fluxbore.fem.helical import HelicalSolution, solve
 from fluxbore.fem.helical_force import force
 from fluxbore.fem.helical_gradient import HelicalAdjoint
-from fluxbore.geometry.helical_bands import Bands, Segment
-from fluxbore.geometry.helical_numbers import alike, magnets, numbers
-from fluxbore.geometry.helical_section import HelicalSection
+from fluxbore.geometry.helical_numbers import alike, numbers
 from fluxbore.geometry.lead_screw import helical_section
-
-Array = np.ndarray
-
-STEEL = standard()["1010"].curve
-EXACTLY = replace(SETTINGS, tolerance=1e-10)
-
-
-def members(screw: LeadScrew, **changes: object) -> LeadScrew:
-    return replace(
-        screw,
-        translator=replace(screw.translator, **changes),  # type: ignore[arg-type]
-        rotor=replace(screw.rotor, **changes),  # type: ignore[arg-type]
-    )
-
-
-def sections() -> dict[str, HelicalSection]:
-    """Ideal iron, touching magnets; thin saturated iron, unlike magnets; no iron; arcs in steps on three starts."""
-    screw = table_i()
-    narrow = replace(screw.translator, magnet_width=0.4 * PITCH, iron_thickness=0.2e-3)
-    thin = replace(screw, translator=narrow, rotor=replace(narrow, magnet_width=0.35 * PITCH, remanence=1.2))
-    arcs = members(replace(screw, starts=3), arcs=replace(ARCS, angle=0.9))
-    wide = replace(arcs, translator=replace(arcs.translator, magnet_width=0.4 * PITCH))
-    return {
-        "ideal": helical_section(screw, 0.21 * PITCH),
-        "saturated": helical_section(thin, 0.17 * PITCH, STEEL, STEEL),
-        "no iron": helical_section(table_i(False, False), 0.1 * PITCH),
-        "arcs": helical_section(wide, 0.3 * PITCH, STEEL, STEEL),
-    }
 
 
 @pytest.fixture(scope="module", params=list(sections()))
@@ -52,58 +21,6 @@ def solved(request: pytest.FixtureRequest) -> tuple[HelicalSolution, Array]:
     found = solve(sections()[request.param], settings=EXACTLY)
     assert found.convergence.converged
     return found, HelicalAdjoint(found).force()
-
-
-def from_numbers(like: HelicalSection, values: Array) -> HelicalSection:
-    """The inverse of `numbers`, of a section that is like another."""
-    count = len(like.layers)
-    radii, (period, lead, displacement), rest = np.split(values, [count + 1, count + 4])
-    permeability, ends = rest[:count], iter(rest[count:].reshape(-1, 3).tolist())
-    layers = []
-    for k, layer in enumerate(like.layers):
-        if isinstance(layer.magnets, Bands):
-            parts = [next(ends) for _ in layer.magnets.segments]
-            stops = [part[0] for part in parts[1:]] + [parts[0][0] + 1]
-            segments = tuple(
-                Segment(start, stop, first, last, old.magnet)
-                for (start, first, last), stop, old in zip(parts, stops, layer.magnets.segments, strict=True)
-            )
-            layer = replace(layer, magnets=Bands(segments))
-        layers.append(replace(layer, outer_radius=float(radii[k + 1]), permeability=float(permeability[k])))
-    return replace(
-        like,
-        inner_radius=float(radii[0]),
-        layers=tuple(layers),
-        period=float(period),
-        lead=float(lead),
-        displacement=float(displacement),
-    )
-
-
-def directions(section: HelicalSection) -> list[Array]:
-    """One by one, all numbers but the permeability of what is no magnet; south bands with the north bands."""
-    count, values = len(section.layers), numbers(section)
-    fixed = {count + 4 + k for k, layer in enumerate(section.layers) if layer.magnets is None}
-    found = [unit for k, unit in enumerate(np.eye(values.size)[: 2 * count + 4]) if k not in fixed]
-    at = 2 * count + 4
-    for _, bands in magnets(section):
-        half = len(bands.segments) // 2
-        for segment in range(half):
-            for k, sign in enumerate((1.0, -1.0, -1.0)):
-                both = np.zeros(values.size)
-                both[[at + 3 * segment + k, at + 3 * (segment + half) + k]] = 1.0, sign
-                found.append(both)
-        at += 6 * half
-    return found
-
-
-def difference(found: HelicalSolution, change: Array) -> float:
-    """Half the force's difference between both ends of a change of the numbers, there and back."""
-    ahead, behind = (
-        force(solve(from_numbers(found.section, numbers(found.section) + end), settings=EXACTLY, start=found))
-        for end in (change, -change)
-    )
-    return (ahead - behind) / 2
 
 
 def test_numbers_are_all_of_a_section() -> None:
@@ -117,15 +34,8 @@ def test_numbers_are_all_of_a_section() -> None:
 def test_against_differences(solved: tuple[HelicalSolution, Array]) -> None:
     """Catches any term left out or of the wrong sign: a random direction in each of three kinds of numbers."""
     found, gradient = solved
-    section, count = found.section, len(found.section.layers)
-    rng = np.random.default_rng(7)
-    kinds = (slice(0, count + 1), slice(count + 1, count + 4), slice(count + 4, None))
-    thinnest = float(np.min(np.diff(section.radii)))
-    for kind in kinds:
-        change = np.sum([rng.normal() * unit for unit in directions(section) if np.any(unit[kind])], axis=0)
-        # Lengths by shares of the thinnest layer, all else by shares of one.
-        step = 0.01 * (thinnest if kind.start < count + 4 else 0.3)
-        rough, fine = (difference(found, length * change) / length for length in (step, step / 2))
+    for change, step in random_changes(found.section, 7):
+        rough, fine = (difference(force, found, length * change) / length for length in (step, step / 2))
         exact = float(gradient @ change)
         # They come nearer at their own order, two, until Newton's tolerance over the step is left.
         assert abs(fine - exact) < 0.26 * abs(rough - exact) + 2e-8 * abs(exact)
@@ -164,7 +74,7 @@ def test_slope_at_rest() -> None:
     found = solve(section, settings=EXACTLY)
     gradient, place = HelicalAdjoint(found).force(), len(section.layers) + 3
     step = 1e-4 * PITCH * np.eye(gradient.size)[place]
-    assert gradient[place] == pytest.approx(difference(found, step) / step[place], rel=1e-6)
+    assert gradient[place] == pytest.approx(difference(force, found, step) / step[place], rel=1e-6)
     lengths = np.delete(gradient[: place + 1] * numbers(section)[: place + 1], place)
     assert np.all(np.abs(lengths) < 1e-9 * gradient[place] * PITCH)
 
