@@ -22,7 +22,7 @@ from fluxbore.design.errors import DesignError
 from fluxbore.design.units import format_quantity
 
 ROUNDING = 1e-9
-"""Relative; magnets that overlap by no more than this touch."""
+"""Relative; magnets that overlap by no more touch, and what is thinner beside its radius or pitch is not there."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,6 +89,7 @@ class LeadScrew:
                 f"actuator.gap must exceed actuator.gap_tolerance {_mm(self.gap_tolerance)}, or the members touch; "
                 f"got {_mm(self.gap)}."
             )
+        self._check_thin()
         if self.translator.magnet_thickness + self.translator.iron_thickness > self.translator_radius:
             raise DesignError(
                 "actuator.translator.outer_radius must hold its magnets and the iron within, at least "
@@ -165,6 +166,21 @@ class LeadScrew:
         ):
             if not (math.isfinite(value) and value >= 0):
                 raise DesignError(f"{key} must be finite and 0 {unit} or more; got {value:g} {unit}.")
+
+    def _check_thin(self) -> None:
+        radius = "actuator.translator.outer_radius", self.translator_radius
+        for key, length, (whole, size) in (
+            ("gap", self.gap, radius),
+            ("translator.magnet_thickness", self.translator.magnet_thickness, radius),
+            ("rotor.magnet_thickness", self.rotor.magnet_thickness, radius),
+            ("translator.magnet_width", self.translator.magnet_width, ("actuator.pitch", self.pitch)),
+            ("rotor.magnet_width", self.rotor.magnet_width, ("actuator.pitch", self.pitch)),
+        ):
+            if length < ROUNDING * size:
+                raise DesignError(
+                    f"actuator.{key} must be at least {_mm(ROUNDING * size)}, {ROUNDING:g} of {whole}; "
+                    f"got {_mm(length)}."
+                )
 
     def _check_member(self, name: str, member: HelicalMagnets) -> None:
         key = f"actuator.{name}."

@@ -129,7 +129,7 @@ def _rest(whole: Any, part: Any) -> Any:
 
 
 def check(values: Values) -> None:
-    """Raise SpecError where the arcs or the motor are described in part."""
+    """Raise SpecError where the arcs or the motor are described in part, DesignError where nothing can be built."""
     for member in MEMBERS:
         form = values[f"actuator.{member}.magnets"]
         for leaf in ("arc_angle", "arcs_per_turn"):
@@ -143,6 +143,7 @@ def check(values: Values) -> None:
     if len(given) == 1:
         missing = next(key for key in pair if key not in values)
         raise SpecError(f"{missing} is missing: it is needed with {given[0]}.")
+    from_values(values)
 
 
 def from_values(values: Values) -> LeadScrewActuator:
