@@ -6,11 +6,45 @@ Booleans between helical solids may be wrong without a word; polygons of straigh
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from itertools import combinations
+from typing import NamedTuple
 
 from fluxbore.geometry import unrolled
 from fluxbore.geometry.helical_part import RESOLUTION, HelicalPart, overlapping
 from fluxbore.geometry.unrolled import TURN, Outline
+
+
+class Gaps(NamedTuple):
+    """The narrowest of an assembly's helical parts; infinite where there is none of a kind.
+
+    radial : m, between members. axial : m, between parts of one member that have an angle in common. angular : rad,
+    between those that have none, at heights that both have.
+    """
+
+    radial: float
+    axial: float
+    angular: float
+
+
+def narrowest(parts: Iterable[HelicalPart]) -> Gaps:
+    """Gaps of all pairs; parts of the same radii are of one member. 0 where any two touch or overlap."""
+    members: dict[tuple[float, float], list[HelicalPart]] = {}
+    for part in parts:
+        members.setdefault((part.inner_radius, part.outer_radius), []).append(part)
+    radial = min((radial_gap(a[0], b[0]) for a, b in combinations(members.values(), 2)), default=math.inf)
+    axial = angular = math.inf
+    for member in members.values():
+        rising = sorted((*unrolled.heights(part.outline), i) for i, part in enumerate(member))
+        for place, (_, top, i) in enumerate(rising):
+            for low, _, j in rising[place + 1 :]:
+                if low - top > axial:
+                    break  # and so are all that begin higher
+                found = axial_gap(member[i], member[j])
+                axial = min(axial, found)
+                if math.isinf(found):
+                    angular = min(angular, angular_gap(member[i], member[j]))
+    return Gaps(0.0 if abs(radial) < RESOLUTION else radial, axial, angular)
 
 
 def radial_gap(first: HelicalPart, second: HelicalPart) -> float:

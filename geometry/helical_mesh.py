@@ -62,16 +62,19 @@ def _piece(part: HelicalPart, outline: Outline, step: float) -> list[tuple[Float
 
     inner, outer = part.inner_radius, part.outer_radius
     edges = [line(outer, low), line(outer, high), line(inner, high), line(inner, low)]
-    found = [_strip(edges[i], edges[(i + 1) % 4]) for i in range(4)]
+    # Both long sides are split along the same diagonal, so that what one bulges the other lacks.
+    found = [_strip(edges[i], edges[(i + 1) % 4], falling=i == 3) for i in range(4)]
     for end, order in ((0, (3, 0, 1, 2)), (-1, (0, 3, 2, 1))):
         if high[end] > low[end]:
             found.append((np.array([edges[i][end] for i in order]), np.array([[0, 1, 2], [0, 2, 3]])))
     return found
 
 
-def _strip(first: Floats, second: Floats) -> tuple[Floats, Numbers]:
-    """Two edges joined, the outside on the right of the way along the first one seen from the second's side."""
+def _strip(first: Floats, second: Floats, *, falling: bool) -> tuple[Floats, Numbers]:
+    """Quadrilaterals between two edges, the outside to the left of the way from the first to the second seen along
+    them; falling : split from the first edge's far corner to the second's near one, instead of the other way."""
     n = len(first)
     a = np.arange(n - 1)
-    faces = np.concatenate([np.column_stack([a, a + 1, a + 1 + n]), np.column_stack([a, a + 1 + n, a + n])])
-    return np.concatenate([first, second]), faces
+    b, c, d = a + 1, a + 1 + n, a + n
+    halves = ((a, b, d), (b, c, d)) if falling else ((a, b, c), (a, c, d))
+    return np.concatenate([first, second]), np.concatenate([np.column_stack(half) for half in halves])

@@ -172,8 +172,8 @@ def _check_number(member: _Member, pitch: float, starts: int) -> None:
     turns, arcs = member.length / (pitch * starts), member.shape.arcs
     if turns > MOST_TURNS:
         raise DesignError(
-            f"actuator.pitch must not wind a helix more than {MOST_TURNS} times around the {member.name}, so that it "
-            f"must be at least {_mm(member.length / (MOST_TURNS * starts))}; got {_mm(pitch)}."
+            f"actuator.pitch must be at least {_mm(member.length / (MOST_TURNS * starts))}, or a helix winds more than "
+            f"{MOST_TURNS} times around the {member.name}; got {_mm(pitch)}."
         )
     pieces = 2 * starts * (1 if arcs is None else max(1, math.ceil(turns * arcs.per_turn)))
     if pieces > MOST_MAGNETS:

@@ -34,8 +34,10 @@ def render_picture(
     """The parts in perspective on a transparent ground, or the reason why there is no picture. Never raises for want of
     graphics.
 
-    meshes : tessellated parts, the axis along z; cut-aways are the caller's. path : where to keep a copy, if anywhere.
+    meshes : tessellated parts, the axis along z; cut-aways are the caller's, and one of which nothing is left is not
+    drawn. path : where to keep a copy, if anywhere.
     """
+    meshes = [mesh for mesh in meshes if len(mesh[3])]
     if not meshes:
         return Picture(None, "There is no solid model to draw.")
     if not graphics.has_egl():

@@ -1,8 +1,15 @@
-"""The machine in section, drawn from the parts' own profiles: needs neither CAD nor graphics libraries."""
+"""The machine in section, drawn from the parts' own profiles: needs neither CAD nor graphics libraries.
+
+The plane of the section holds the axis and the x axis; what follows a helix is cut where it passes that plane.
+"""
 
 from __future__ import annotations
 
-from fluxbore.geometry.assembly import Assembly
+import math
+
+from fluxbore.geometry import unrolled
+from fluxbore.geometry.assembly import Assembly, Body, Profile
+from fluxbore.geometry.helical_part import HelicalPart
 from fluxbore.reports.svg import Drawing, drawing, new_figure, style
 
 FEW = 6
@@ -31,9 +38,10 @@ def section(assembly: Assembly, name: str = "section", width: float = 1000.0) ->
         roles: dict[str, tuple[float, float, float]] = {}
         for part in assembly.parts:
             roles.setdefault(part.name if len(assembly.parts) <= FEW else part.role, part.colour)
-            for sign in (1, -1):
-                points = [(z * 1e3, sign * r * 1e3) for r, z in part.profile]
-                plot.add_patch(Polygon(points, facecolor=part.colour, edgecolor=EDGE, linewidth=0.5))
+            for sign, angle in ((1, 0.0), (-1, math.pi)):
+                for face in _faces(part, angle):
+                    points = [(z * 1e3, sign * r * 1e3) for r, z in face]
+                    plot.add_patch(Polygon(points, facecolor=part.colour, edgecolor=EDGE, linewidth=0.5))
         margin = 0.03 * (high - low)
         plot.plot([(low - margin) * 1e3, (high + margin) * 1e3], [0, 0], color=EDGE, lw=0.7, ls=(0, (12, 3, 2, 3)))
         plot.set_aspect("equal")
@@ -49,3 +57,12 @@ def section(assembly: Assembly, name: str = "section", width: float = 1000.0) ->
         place = f", mover at z = {assembly.position * 1e3:.4g} mm" if mover else ""
         caption = f"Longitudinal section{place}."
         return drawing(canvas, name, alt, caption, wide=wide)
+
+
+def _faces(part: Body, angle: float) -> list[Profile]:
+    """What the half plane at an angle (rad) cuts out of a part."""
+    if not isinstance(part, HelicalPart):
+        return [part.profile]
+    inner, outer = part.inner_radius, part.outer_radius
+    spans = unrolled.spans(part.outline, angle)
+    return [((inner, low), (outer, low), (outer, high), (inner, high)) for low, high in spans]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import platform
 import sys
 from collections.abc import Mapping, Sequence
@@ -12,6 +13,8 @@ from fluxbore import __version__
 from fluxbore.design.errors import MissingLibraryError
 from fluxbore.design.spec import Spec
 from fluxbore.geometry.assembly import Assembly, interferences
+from fluxbore.geometry.helical_clearance import narrowest
+from fluxbore.geometry.helical_part import HelicalPart
 from fluxbore.geometry.mass import PartMass, part_masses
 from fluxbore.optimize.design_key import source_hash
 from fluxbore.optimize.evaluation import Evaluation
@@ -39,22 +42,33 @@ def part_rows(spec: Spec, parts: Assembly) -> tuple[PartRow, ...]:
 
     alike: dict[tuple[object, ...], list[PartMass]] = {}
     for row in part_masses(parts, spec.materials):
-        key = (row.part.role, row.part.group, row.part.material, _size(row), f"{row.volume:.9e}")
+        key = (row.part.role, row.part.group, row.part.material, _size(row), f"{row.volume:.7e}")
         alike.setdefault(key, []).append(row)
     rows = []
     for same in alike.values():
         part = same[0].part
         name = part.name if len(same) == 1 else part.role
-        rows.append(PartRow(name, part.group, part.material, _size(same[0]), same[0].volume, same[0].mass, len(same)))
+        material = part.material or "envelope only"
+        rows.append(PartRow(name, part.group, material, _size(same[0]), same[0].volume, same[0].mass, len(same)))
+    if parts.carried_mass > 0:
+        rows.append(PartRow("carried along, not drawn", "mover", "", "", 0.0, parts.carried_mass))
     return tuple(rows)
 
 
 def _size(row: PartMass) -> str:
-    """Outer and inner diameter and length of the part's envelope, as on a drawing."""
+    """Outer and inner diameter and length of the part's envelope, as on a drawing; of a helix also how it winds."""
     radii, heights = zip(*row.part.profile, strict=True)
     bore = f" / \N{LATIN CAPITAL LETTER O WITH STROKE}{2e3 * min(radii):.5g}" if min(radii) > 0 else ""
     length = (max(heights) - min(heights)) * 1e3
-    return f"\N{LATIN CAPITAL LETTER O WITH STROKE}{2e3 * max(radii):.5g}{bore} \N{MULTIPLICATION SIGN} {length:.5g} mm"
+    ring = f"\N{LATIN CAPITAL LETTER O WITH STROKE}{2e3 * max(radii):.5g}{bore} \N{MULTIPLICATION SIGN} {length:.5g} mm"
+    return f"{ring}, {_winding(row.part)}" if isinstance(row.part, HelicalPart) else ring
+
+
+def _winding(part: HelicalPart) -> str:
+    around = f"{math.degrees(part.angle):.4g}°" if part.angle <= math.tau else f"{part.angle / math.tau:.4g} turns"
+    if part.lead == 0.0:
+        return around
+    return f"{around} of a helix {part.width * 1e3:.5g} mm wide, lead {part.lead * 1e3:.5g} mm"
 
 
 def checked(parts: Assembly, squeeze: str = "") -> tuple[str, ...]:
@@ -72,7 +86,22 @@ def checked(parts: Assembly, squeeze: str = "") -> tuple[str, ...]:
     else:
         names = "; ".join(f"{item.first} and {item.second}" for item in found if not item.designed)
         sentences.append(f"Interference: {names} overlap.")
+    helical = [part for part in parts.parts if isinstance(part, HelicalPart)]
+    if helical:
+        sentences.append(_gaps(helical))
     return tuple(sentences)
+
+
+def _gaps(parts: Sequence[HelicalPart]) -> str:
+    """The narrowest gaps of helical parts; what has none of a kind is not spoken of."""
+    found = narrowest(parts)
+    pairs = (
+        (f"{found.radial * 1e3:.4g} mm between the members", "the members touch", found.radial),
+        (f"{found.axial * 1e3:.4g} mm along the axis", "neighbours touch along the axis", found.axial),
+        (f"{math.degrees(found.angular):.4g}° around it", "ends touch around it", found.angular),
+    )
+    told = [words if gap > 0 else touch for words, touch, gap in pairs if math.isfinite(gap)]
+    return f"Narrowest gaps of the magnets, from their outlines: {', '.join(told)}."
 
 
 def provenance(spec: Spec, evaluation: Evaluation | None, command: Sequence[str] | None = None) -> Mapping[str, str]:
