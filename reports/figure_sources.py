@@ -40,6 +40,10 @@ _HEAT = ("actuator.back_yoke.emissivity", "actuator.winding.insulation_conductiv
 _COOLING = "Mellor et al. 1991; Hashin and Shtrikman 1962; Churchill and Chu 1975"
 _IRON = "coefficient of hysteresis, from handbooks"
 
+_ROTLIN = "RotLin paper"
+_CARRIED = ("actuator.carried_mass",)
+_TURNED = ("actuator.motor.inertia",)
+
 SOURCES: dict[str, Source] = {
     "force_constant": Source("FEM: Maxwell's stress; network: equation (2)", _NETWORK),
     "force_constant_linkage": Source("3/2 (π/τ) λ_1"),
@@ -101,6 +105,39 @@ SOURCES: dict[str, Source] = {
     "stored_energy": Source("½ ∫J·A dV of rotationally symmetric coils"),
     "quench_load": Source("|J|/J_c + B/B_c", "Alotto et al. 1996, TEAM problem 22"),
     "merit": Source("(B_stray/B_norm)² + |E − E_ref|/E_ref", "Alotto et al. 1996, TEAM problem 22"),
+    "stall_force": Source("FEM: Maxwell's stress; network: largest of Σ F_n sin(m_n x_d)", f"{_ROTLIN}, (7) to (10)"),
+    "stall_force_density": Source("stall force over V", "", ("actuator.reference_volume",)),
+    "stall_torque": Source("h F_stall", f"{_ROTLIN}, (6)"),
+    "slip_margin": Source("F_stall/(F_load + M a)", "", ("operating_point.load_force", *_CARRIED)),
+    "sudden_load_limit": Source("F with F x = ∫F_s dx where F = F_s(x) beyond the peak"),
+    "stroke_end_force": Source(
+        "F_stall times the overlap over p_a l_p/2", "", ("operating_point.stroke", "actuator.translator.length")
+    ),
+    "force_ripple": Source("helices of other leads that arcs of both members make, by Bessel functions, ideal iron"),
+    "spring_constant": Source("dF/dx_d at x_d = 0", f"{_ROTLIN}, (1)"),
+    "load_displacement": Source("F_s(x_d) = F_load", "", ("operating_point.load_force",)),
+    "spring_energy": Source("∫F_s dx_d from 0 to l_p/2"),
+    "slip_work": Source("F_load l_p", "", ("operating_point.load_force",)),
+    "natural_frequency": Source("√(K_s/M)/2π", "", _CARRIED),
+    "transfer_ratio": Source("1/h, h = lead/2π", f"{_ROTLIN}, (3)"),
+    "motor_torque": Source(
+        "h (F_load + M a) + J a/h + T_f",
+        f"{_ROTLIN}, (4) to (6)",
+        (
+            *(f"operating_point.{name}" for name in ("load_force", "acceleration", "friction_torque")),
+            *_CARRIED,
+            *_TURNED,
+        ),
+    ),
+    "motor_current": Source("motor torque over K_tn", "", ("actuator.motor.torque_constant",)),
+    "back_driving_force": Source("T_f/h", "", ("operating_point.friction_torque",)),
+    "largest_acceleration": Source("(F_stall − F_load)/M", "", ("operating_point.load_force", *_CARRIED)),
+    "harmonic_ratio_2": Source("K_2/K_1 = F_3/F_1 of n = 1, 3, 5 …", f"{_ROTLIN}, (9)"),
+    "harmonic_ratio_3": Source("K_3/K_1 = F_5/F_1", f"{_ROTLIN}, (9)"),
+    "translator_iron_flux_density": Source("flux along the helix' normal over the iron's section, at x_d = 0"),
+    "rotor_iron_flux_density": Source("flux along the helix' normal over the iron's section, at x_d = 0"),
+    "rotor_inertia": Source("rings of magnets, iron and frame, and what the motor adds", "", _TURNED),
+    "reflected_mass": Source("J/h²", "", _TURNED),
 }
 """By the figure's name; what is not here is a length, a mass or a value read from the field."""
 

@@ -1,6 +1,7 @@
 """A lead screw's figures by both routes: against each other, against other routes, and by hand."""
 
 import math
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -10,7 +11,7 @@ import pytest
 from fluxbore.design.errors import DesignError
 from fluxbore.design.force_series import ForceSeries
 from fluxbore.design.lead_screw_performance import LeadScrewFigures
-from fluxbore.design.performance import FIGURES, Performance
+from fluxbore.design.performance import FIGURES, Performance, show_figure
 from fluxbore.design.spec import Spec, load
 from fluxbore.design.study import Constraint, Variable
 from fluxbore.fem.helical import solve
@@ -340,6 +341,16 @@ def test_what_a_variable_moves_can_be_given() -> None:
     assert MODELS["lead-screw"].never(spec, "rotor_iron_flux_density") is not None
     moved = replace(spec, study=replace(spec.study, variables=(Variable("actuator.rotor.iron_thickness", 0.0, 5e-3),)))
     assert MODELS["lead-screw"].never(moved, "rotor_iron_flux_density") is None
+
+
+def test_the_pages_numbers(steel: Evaluation) -> None:
+    """docs/constraints.md names every figure of a lead screw, as the program shows it."""
+    page = (ROTLIN.parents[1] / "docs" / "constraints.md").read_text(encoding="utf-8")
+    section_ = page.split("## Magnetic lead screw\n")[1].split("\n## ")[0]
+    rows = [line.split("|")[1] for line in section_.splitlines() if line.startswith("| `")]
+    told = dict(pair for row in rows for pair in re.findall(r"`(\w+)` \(([^)]*)\)", row))
+    values = {name: getattr(steel.performance, name) for name in FIGURES}
+    assert told == {name: show_figure(name, value, 4) for name, value in values.items() if value is not None}
 
 
 def test_a_gap_without_a_field_is_refused() -> None:
