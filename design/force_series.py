@@ -38,6 +38,10 @@ class ForceSeries:
         """dF/dx_d (N/m) at a displacement (m) of any shape."""
         return np.asarray(np.cos(self._angles(displacement)) @ (self.amplitude * self.wave))
 
+    def curvature(self, displacement: float) -> float:
+        """d2F/dx_d2 (N/m^2) at a displacement (m)."""
+        return float(-np.sin(self._angles(displacement)) @ (self.amplitude * self.wave**2))
+
     def energy(self, displacement: ArrayLike) -> Floats:
         """What the spring holds (J) beyond its rest at x_d = 0; 1 - cos as 2 sin^2, for small ones."""
         return np.asarray(np.sin(self._angles(displacement) / 2) ** 2 @ (2 * self.amplitude / self.wave))

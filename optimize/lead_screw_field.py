@@ -36,6 +36,9 @@ lines meet as they do at rest. With the slope at rest they give harmonics up to 
 REST = 1e-3
 """Of the pitch: near enough to rest that the force over it is the slope to 1e-5, and far enough for its digits."""
 
+FARTHEST = 0.02
+"""Of the pitch: by how much more than this the series does not miss its peak."""
+
 LOAD_EXPONENT = 8.0
 """p of the mean of (reverse field)^p over the magnets. The field is infinite where poles meet, so that the largest
 value is a number of the mesh; this one is of the volume."""
@@ -48,8 +51,8 @@ SLIPPING = 0.5
 class LeadScrewField:
     """The solutions of one screw.
 
-    samples : at `displacements` of the pitch, in that order. slipping : at half a pitch. top : where the series has its
-    peak if that is none of the samples, as in narrow magnets beside a narrow gap; None otherwise.
+    samples : at `displacements` of the pitch, in that order. slipping : at half a pitch. top : at the peak
+    if that is none of the samples, as of narrow magnets beside a narrow gap; None otherwise.
     """
 
     screw: LeadScrew
@@ -134,8 +137,8 @@ def section(spec: Spec, screw: LeadScrew, displacement: float) -> HelicalSection
 def solve_field(spec: Spec, screw: LeadScrew) -> LeadScrewField:
     """All of the screw's fields; it ends at the first that does not converge.
 
-    The largest force is read off a field at the peak itself, where it is level: as far as the series may have missed
-    the place, the force is short by the square of that. Raises DesignError where no force pulls back to rest.
+    The largest force is read off a field at the peak itself, where it is level: as far as the place is missed, the
+    force is short by the square of that. Raises DesignError where no force pulls back to rest.
     """
     field = LeadScrewField(screw, _solve(spec, screw, displacements()))
     if field.failure is not None:
@@ -145,9 +148,25 @@ def solve_field(spec: Spec, screw: LeadScrew) -> LeadScrewField:
     check_force(spec, peak)
     near = field.samples[0]
     field = replace(field, slipping=_solve(spec, screw, (SLIPPING,), near)[0])
-    if place != screw.pitch / 4:
-        field = replace(field, top=_solve(spec, screw, (place / screw.pitch,), near)[0])
-    return field
+    return field if place == screw.pitch / 4 else _topped(spec, field, place / screw.pitch)
+
+
+def _topped(spec: Spec, field: LeadScrewField, share: float) -> LeadScrewField:
+    """With the field at the peak, which the series puts at a share of the pitch.
+
+    The series may miss it by half a per cent of the pitch. One step of Newton's goes on from there, with the slope of
+    two fields side by side and the series' curvature.
+    """
+    from fluxbore.fem.helical_force import force
+
+    near, pitch = field.samples[0], field.screw.pitch
+    pair = _solve(spec, field.screw, (share - REST / 2, share + REST / 2), near)
+    if not pair[-1].convergence.converged:
+        return replace(field, top=pair[-1])
+    below, above = (force(item) * periods(field.screw) for item in pair)
+    curvature = field.series.curvature(share * pitch) * pitch**2
+    step = -(above - below) / REST / curvature if curvature < 0 else 0.0
+    return replace(field, top=_solve(spec, field.screw, (share + max(-FARTHEST, min(FARTHEST, step)),), near)[0])
 
 
 def field_figures(spec: Spec, field: LeadScrewField) -> dict[str, float | None]:
@@ -171,7 +190,7 @@ def field_figures(spec: Spec, field: LeadScrewField) -> dict[str, float | None]:
         found[figure] = along_iron(screw, passed, *field.rest.section.radii[layer : layer + 2])
     whole = screw.translator.arcs is None and screw.rotor.arcs is None
     if field.slipping is not None and whole:
-        limits = {names.index(f"{member} magnets"): _coercivity(spec, member) for member in ("translator", "rotor")}
+        limits = {names.index(f"{member} magnets"): coercivity(spec, member) for member in ("translator", "rotor")}
         state = reverse_load(field.slipping, limits)
         found["demagnetised_fraction"] = demagnetised_fraction(*state)
         found["demagnetisation_load"] = mean_load(*state, LOAD_EXPONENT)
@@ -212,7 +231,7 @@ def _solve(
     return solved
 
 
-def _coercivity(spec: Spec, member: str) -> float:
+def coercivity(spec: Spec, member: str) -> float:
     """A/m, of a member's magnets at their temperature."""
     key = f"actuator.{member}.magnet"
     grade = lookup(spec.word(key), key, spec.materials, PermanentMagnet)

@@ -27,6 +27,8 @@ def test_force_is_the_slope_of_the_energy_and_stiffness_that_of_the_force(spring
     assert float(slope) == pytest.approx(float(spring.force(x)), abs=1e-6 * scale)
     slope = (spring.force(x + step) - spring.force(x - step)) / (2 * step)
     assert float(slope) == pytest.approx(float(spring.stiffness(x)), abs=1e-6 * scale * spring.wave[-1])
+    slope = (spring.stiffness(x + step) - spring.stiffness(x - step)) / (2 * step)
+    assert float(slope) == pytest.approx(spring.curvature(x), abs=1e-6 * scale * spring.wave[-1] ** 2)
 
 
 @given(spring=series)
