@@ -19,9 +19,10 @@ if TYPE_CHECKING:
 class Published:
     """A benchmark's figure beside the one that a source gives.
 
-    path : of the figure in `Simulation.figures`. label : in words. dimension : of `fluxbore.design.units`, or "count".
-    value : as published (SI), None where the source gives none. within : the difference (SI) up to which the figure
-    counts as reproduced. note : where the published value stands, or how it follows.
+    path : of the figure in `Simulation.figures`. label : in words. dimension : of `fluxbore.design.units`, "fraction"
+    or "count". value : as published (SI), None where the source gives none. within : the difference (SI) up to which
+    the figure counts as reproduced. note : where the published value stands, or how it follows. least, most : the
+    figure counts as reproduced from the one and up to the other (SI).
     """
 
     path: tuple[str, ...]
@@ -30,6 +31,8 @@ class Published:
     value: float | None = None
     within: float | None = None
     note: str = ""
+    least: float | None = None
+    most: float | None = None
 
     def of(self, figures: Mapping[str, Any]) -> float | None:
         """The figure itself; None where the simulation has none."""
@@ -39,11 +42,21 @@ class Published:
         return None if found is None else float(found)
 
     def reproduced(self, figures: Mapping[str, Any]) -> bool | None:
-        """Whether the figure is as near as `within`; None where there is nothing to hold it against."""
+        """Whether the figure is where it should be; None where there is nothing to hold it against."""
         found = self.of(figures)
-        if found is None or self.value is None or self.within is None:
+        held = self.value is not None and self.within is not None
+        if found is None or not (held or self.least is not None or self.most is not None):
             return None
-        return abs(found - self.value) <= self.within
+        return (
+            (self.value is None or self.within is None or abs(found - self.value) <= self.within)
+            and (self.least is None or found >= self.least)
+            and (self.most is None or found <= self.most)
+        )
+
+    def limits(self, show: Callable[[float], str]) -> str:
+        """What it takes to be reproduced, in words: "within 2 N", "at least 1.4, at most 2"; empty for nothing."""
+        words = (("within", self.within), ("at least", self.least), ("at most", self.most))
+        return ", ".join(f"{word} {show(value)}" for word, value in words if value is not None)
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,7 +69,8 @@ class Benchmark:
     seed, with traces or without; a worker finds it by its name, so it stands in a module. published : the figures that
     a table shows. causes : what of a design its results come from, which makes those of two designs differ. limits :
     what agreement with the source does not show, in sentences. variations : of a design and its field, other values of
-    keys that leave the field as it is, each with what it is called.
+    keys that leave the field as it is, each with what it is called. random : whether its trials are drawn by chance, so
+    that one seed differs from another. own : leaves of its keys that describe a design and not the test stand.
     """
 
     name: str
@@ -69,6 +83,8 @@ class Benchmark:
     causes: tuple[Published, ...] = ()
     limits: tuple[str, ...] = ()
     variations: Callable[[Spec, Any], Sequence[tuple[str, Mapping[str, Value]]]] = lambda spec, field: ()
+    random: bool = True
+    own: tuple[str, ...] = ()
 
     @property
     def section(self) -> str:

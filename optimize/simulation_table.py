@@ -47,7 +47,7 @@ def trials_table(runs: Sequence[DesignRun]) -> str:
 def traces_table(simulation: Simulation, key: str) -> bytes:
     """The content of traces.parquet: trial number, its setting, time and signals (SI); ``key`` stands in its metadata.
 
-    Raises MissingLibraryError without pyarrow.
+    A signal that a trial does not have is not a number there. Raises MissingLibraryError without pyarrow.
     """
     arrow, parquet = load_pyarrow(TRACES)
     traced = [(i, item, item.trace) for i, item in enumerate(simulation.trials) if item.trace is not None]
@@ -57,7 +57,7 @@ def traces_table(simulation: Simulation, key: str) -> bytes:
         columns[name] = np.repeat(np.array([trial.setting.get(name) for _, trial, _ in traced]), lengths)
     columns["time"] = _joined([trace.time for *_, trace in traced])
     for name in dict.fromkeys(name for *_, trace in traced for name in trace.signals):
-        columns[name] = _joined([trace.signals[name] for *_, trace in traced])
+        columns[name] = _joined([trace.signals.get(name, np.full(trace.time.size, np.nan)) for *_, trace in traced])
     table = arrow.table(columns).replace_schema_metadata({"simulation": key, "seed": str(simulation.seed)})
     buffer = io.BytesIO()
     parquet.write_table(table, buffer, compression="zstd")
@@ -87,7 +87,8 @@ def _with_traces(simulation: Simulation, columns: Mapping[str, Any]) -> Simulati
     trials = []
     for i, trial in enumerate(simulation.trials):
         own = number == i
-        signals = {name: values[own] for name, values in columns.items() if name not in ("trial", "time")}
+        all_of_it = {name: values[own] for name, values in columns.items() if name not in ("trial", "time")}
+        signals = {name: values for name, values in all_of_it.items() if not np.isnan(values).all()}
         trials.append(replace(trial, trace=Trace(columns["time"][own], signals) if own.any() else None))
     return replace(simulation, trials=tuple(trials))
 

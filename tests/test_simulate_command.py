@@ -221,7 +221,8 @@ def test_a_kind_without_benchmarks_says_so(tmp_path, monkeypatch, capsys):
     Path("spec.toml").write_text(SPEC)
     assert main(["simulate", "spec.toml", "--benchmark", "mcfc"]) == 2
     assert capsys.readouterr().err == (
-        "fluxbore: benchmark must be one of the actuator's kind, and kind coils has none (hybrid has mcfc); "
+        "fluxbore: benchmark must be one of the actuator's kind, and kind coils has none (hybrid has mcfc; "
+        "lead-screw has force); "
         'got "mcfc".\n'
     )
 

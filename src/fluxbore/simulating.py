@@ -27,16 +27,19 @@ from fluxbore.workshop import DESIGN_FILE, Workshop, workshop
 
 FIGURES_FILE = "figures.json"
 
+SEEDS = 5
+"""Where their number is not given; one where nothing is drawn by chance."""
+
 MOST_SEEDS = 1000
 LARGEST_SEED = 2**31 - 1
 
 
 def simulate(
     spec: Spec | Path | str,
-    benchmark: str,
+    benchmark: str | None = None,
     folder: Path | str | None = None,
     *,
-    seeds: int = 5,
+    seeds: int | None = None,
     seed: int = 1,
     against: Sequence[Spec | Path | str] = (),
     vary: bool = False,
@@ -49,9 +52,10 @@ def simulate(
     picture: bool = True,
     command: Sequence[str] | None = None,
 ) -> BenchmarkResult:
-    """Put the specification's design through a benchmark of its kind, such as "mcfc".
+    """Put the specification's design through a benchmark of its kind, such as "mcfc"; without a name, the only one.
 
-    seeds : how many; the first is ``seed``, each other one more. against : other designs, put through the same with
+    seeds : how many, 5 where not given; the first is ``seed``, each other one more. A benchmark in which nothing is
+    drawn by chance has one. against : other designs, put through the same with
     the specification's own section of the benchmark, so that only the designs differ. vary : whether the first seed is
     run under the benchmark's other conditions too, for a table of sensitivities. folder : gets ``results.csv``,
     ``traces.parquet``, ``figures.json``, ``report.html`` and the journal, from which the same run takes what it has.
@@ -63,7 +67,7 @@ def simulate(
     """
     spec = as_spec(spec)
     chosen = benchmark_of(spec, benchmark)
-    numbers = _seeds(seeds, seed)
+    numbers = _seeds(chosen, seeds, seed)
     designs = [(spec.word("actuator.name"), spec), *_others(chosen, spec, against)]
     with workshop(spec, folder, workers, scheduler, time_limit, force, tables="simulation") as shop:
         place = shop.folder
@@ -83,25 +87,33 @@ def simulate(
         return replace(result, files=tuple(_write(place, shop, spec, result, fidelity, picture, command)))
 
 
-def benchmark_of(spec: Spec, name: str) -> Benchmark:
-    """The benchmark of this name. Raises SpecError where the specification's kind does not have it."""
+def benchmark_of(spec: Spec, name: str | None = None) -> Benchmark:
+    """The benchmark of this name, or the only one. Raises SpecError where the specification's kind does not have it."""
     known = actuator_of(spec).benchmarks
-    if name in known:
+    if name is None and len(known) == 1:
+        return next(iter(known.values()))
+    if name is not None and name in known:
         return known[name]
+    got = "none" if name is None else shown(name)
     if known:
         raise SpecError(
-            f"benchmark must be one of {', '.join(known)} for an actuator of kind {spec.kind.name}; got {shown(name)}."
+            f"benchmark must be one of {', '.join(known)} for an actuator of kind {spec.kind.name}; got {got}."
         )
     having = "; ".join(
         f"{kind} has {', '.join(actuator.benchmarks)}" for kind, actuator in ACTUATORS.items() if actuator.benchmarks
     )
     raise SpecError(
-        f"benchmark must be one of the actuator's kind, and kind {spec.kind.name} has none ({having}); "
-        f"got {shown(name)}."
+        f"benchmark must be one of the actuator's kind, and kind {spec.kind.name} has none ({having}); got {got}."
     )
 
 
-def _seeds(count: int, first: int) -> tuple[int, ...]:
+def _seeds(benchmark: Benchmark, wanted: int | None, first: int) -> tuple[int, ...]:
+    count = wanted if wanted is not None else SEEDS if benchmark.random else 1
+    if not benchmark.random and count > 1:
+        raise SpecError(
+            f"seeds must be 1 for the benchmark {benchmark.name}, in which nothing is drawn by chance; "
+            f"got {shown(count)}."
+        )
     if not 1 <= count <= MOST_SEEDS:
         raise SpecError(f"seeds must be from 1 to {MOST_SEEDS}; got {shown(count)}.")
     if not 0 <= first <= LARGEST_SEED:
@@ -135,10 +147,15 @@ def _label(path: Path, taken: Collection[str]) -> str:
 
 
 def on_the_stand_of(spec: Spec, benchmark: Benchmark, other: Spec) -> Spec:
-    """The other design with the specification's keys of the benchmark, and only those."""
-    given = {key: value for key, value in other.given.items() if not key.startswith(benchmark.section)}
-    own = {key: value for key, value in spec.given.items() if key.startswith(benchmark.section)}
-    notes = tuple(note for note in other.notes if not note.key.startswith(benchmark.section))
+    """The other design with the specification's keys of the benchmark, and only those; what the benchmark counts to
+    the design stays its own."""
+
+    def stands(key: str) -> bool:
+        return key.startswith(benchmark.section) and key.removeprefix(benchmark.section) not in benchmark.own
+
+    given = {key: value for key, value in other.given.items() if not stands(key)}
+    own = {key: value for key, value in spec.given.items() if stands(key)}
+    notes = tuple(note for note in other.notes if not stands(note.key))
     return replace(other, given={**given, **own}, notes=notes)
 
 

@@ -34,10 +34,12 @@ def simulation_text(result: BenchmarkResult) -> str:
     if not result.ok:
         return f"{run.status}: {' '.join(run.reasons)}"
     count = len(result.seeds)
-    seeds = f"seed {result.seeds[0]}" if count == 1 else f"medians over seeds {result.seeds[0]} to {result.seeds[-1]}"
+    seeds = (
+        f"seed {result.seeds[0]}, " if count == 1 else f"medians over seeds {result.seeds[0]} to {result.seeds[-1]}, "
+    )
     by = route(run.spec, run.evaluation.fidelity)
     parts = [
-        f"{benchmark.name}: {benchmark.title} ({benchmark.source}); {seeds}, field by {by}",
+        f"{benchmark.name}: {benchmark.title} ({benchmark.source}); {seeds if benchmark.random else ''}field by {by}",
         _table([("figure", "simulated", "published", "difference", ""), *_published(benchmark.published, run)]),
     ]
     told = (*benchmark.published, *benchmark.causes)
@@ -61,8 +63,8 @@ def _published(published: Sequence[Published], run: DesignRun) -> list[tuple[str
         found = item.of(run.figures)
         given, reproduced = item.value, item.reproduced(run.figures)
         apart = "" if found is None or given is None else _signed(found - given, item.dimension)
-        within = "" if item.within is None else f" {_show(item.within, item.dimension)}"
-        word = {True: f"within{within}", False: f"NOT within{within}", None: ""}[reproduced]
+        limits = item.limits(lambda value, item=item: _show(value, item.dimension))  # type: ignore[misc]
+        word = {True: limits, False: f"NOT {limits}", None: ""}[reproduced]
         rows.append((item.label, _show(found, item.dimension), _show(given, item.dimension), apart, word))
     return rows
 
@@ -117,7 +119,8 @@ def _designs(result: BenchmarkResult) -> list[tuple[str, ...]]:
 def _variations(result: BenchmarkResult) -> list[tuple[str, ...]]:
     """The first seed under every other condition, and as it was."""
     varying, first = result.moved, result.run.simulations[0]
-    rows: list[tuple[str, ...]] = [(f"seed {first.seed}", *(item.label for item in varying))]
+    head = f"seed {first.seed}" if result.benchmark.random else "one change at a time"
+    rows: list[tuple[str, ...]] = [(head, *(item.label for item in varying))]
     rows.append(("as it is", *(_show(item.of(first.figures), item.dimension) for item in varying)))
     for run in result.variations:
         shown = [_show(item.of(run.figures), item.dimension) for item in varying]
@@ -125,14 +128,16 @@ def _variations(result: BenchmarkResult) -> list[tuple[str, ...]]:
     return rows
 
 
-def _show(value: float | None, dimension: str) -> str:
+def _show(value: float | None, dimension: str, digits: int = DIGITS) -> str:
     if value is None:
         return "-"
-    return format_quantity(value, dimension, DIGITS) if dimension in DIMENSIONS else f"{value:.{DIGITS}g}"
+    if dimension == "fraction":
+        return f"{100 * value:.{digits}g} %"
+    return format_quantity(value, dimension, digits) if dimension in DIMENSIONS else f"{value:.{digits}g}"
 
 
 def _signed(value: float, dimension: str) -> str:
-    shown = format_quantity(value, dimension, 2) if dimension in DIMENSIONS else f"{value:.2g}"
+    shown = _show(value, dimension, 2)
     return shown if shown.startswith("-") else f"+{shown}"
 
 

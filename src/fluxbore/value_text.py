@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from fluxbore.actuators import actuator_of
 from fluxbore.design.keys import Key, Value
 from fluxbore.design.performance import FIGURES, show_figure
 from fluxbore.design.rates import measure_of_key
@@ -14,9 +15,8 @@ from fluxbore.optimize.noise import clear_value
 
 def route(spec: Spec, fidelity: str) -> str:
     """What computed the figures, in words."""
-    if fidelity == "network":
-        return "the magnetic network"
-    return "the exact field in air" if spec.kind.name == "coils" else "finite elements"
+    words = actuator_of(spec).words
+    return (words.network or "the magnetic network") if fidelity == "network" else words.route
 
 
 def show_key(spec: Spec, name: str, value: Value) -> str:

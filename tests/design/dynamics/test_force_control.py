@@ -4,6 +4,7 @@ import math
 from dataclasses import replace
 
 import pytest
+from rotlin_stand import ROTLIN
 
 from fluxbore.design.dynamics.force_control import (
     MoverFriction,
@@ -12,18 +13,18 @@ from fluxbore.design.dynamics.force_control import (
     force_loop,
     static_balance,
 )
-from fluxbore.design.dynamics.rotlin_parameters import RotLinParameters, rotlin_controller, rotlin_stand
+from fluxbore.design.dynamics.force_stand import controller_of, stand_of
 from fluxbore.design.errors import DesignError
 
-PARAMETERS = RotLinParameters()
-STAND = rotlin_stand(PARAMETERS)
+PARAMETERS = ROTLIN
+STAND = stand_of(PARAMETERS)
 
 
 def wavy(angle):
     return 2e-5 * math.sin(angle)
 
 
-CONTROLLER = replace(rotlin_controller(PARAMETERS), distortion=wavy)
+CONTROLLER = replace(controller_of(PARAMETERS), distortion=wavy)
 
 
 @pytest.mark.parametrize("force", [-150.0, -20.0, 0.0, 50.0, 100.0, 190.0])
@@ -38,7 +39,7 @@ def test_the_reference_angle_solves_the_balance(force, velocity):
 
 def test_the_balance_has_its_slopes():
     """dF/dtheta of (30) is h K_l* of (32); catches a sign of x or of the distortion."""
-    plain = rotlin_controller(PARAMETERS)
+    plain = controller_of(PARAMETERS)
     h, angle, position, nudge = plain.transfer_ratio, 0.5, 1e-5, 1e-6
     turned = angle - position / h
     slope = (
@@ -50,7 +51,7 @@ def test_the_balance_has_its_slopes():
 
 
 def test_a_force_beyond_stall_turns_no_further_than_a_quarter_pitch():
-    plain = rotlin_controller(PARAMETERS)
+    plain = controller_of(PARAMETERS)
     assert angle_reference(plain, 500.0, 0.0, 0.0, 0.0) == pytest.approx(math.pi / 2)
     assert angle_reference(plain, -500.0, 0.0, 0.0, 0.0) == pytest.approx(-math.pi / 2)
 

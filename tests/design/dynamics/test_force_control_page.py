@@ -6,17 +6,19 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from rotlin_stand import ROTLIN
 
 from fluxbore.design.dynamics.force_control import NO_FRICTION, force_loop
+from fluxbore.design.dynamics.force_stand import controller_of, stand_of
 from fluxbore.design.dynamics.force_step import simulate_step
 from fluxbore.design.dynamics.force_step_figures import dominant_pole, step_figures
 from fluxbore.design.dynamics.guides import Guides
 from fluxbore.design.dynamics.linearised import FILTERED, UNFILTERED, force_characteristic
-from fluxbore.design.dynamics.rotlin_parameters import RotLinParameters, rotlin_controller, rotlin_stand
 from fluxbore.design.poles import poles
 
-PAGE = (Path(__file__).parents[3] / "docs" / "force_control.md").read_text(encoding="utf-8").replace("−", "-")
-STAND, CONTROLLER = rotlin_stand(RotLinParameters()), rotlin_controller(RotLinParameters())
+TOP = Path(__file__).parents[3]
+PAGE = (TOP / "docs" / "force_control.md").read_text(encoding="utf-8").replace("−", "-")
+STAND, CONTROLLER = stand_of(ROTLIN, distorted=False), controller_of(ROTLIN)
 EXACT = replace(STAND, angle_count=0.0, position_count=0.0)
 FREE = replace(EXACT, guides=Guides())
 KNOWING_NONE = replace(CONTROLLER, friction=NO_FRICTION)
@@ -28,7 +30,8 @@ def row(name):
     return [cell.strip() for cell in line.strip("|").split("|")][1:]
 
 
-def test_the_script_runs(capsys):
+def test_the_script_runs(capsys, monkeypatch):
+    monkeypatch.chdir(TOP)
     (script,) = re.findall(r"^```python\n(.*?)^```$", PAGE, re.MULTILINE | re.DOTALL)
     exec(compile(script, "docs/force_control.md", "exec"), {})
     t63, t98, error = row("and encoders that count")[:3]

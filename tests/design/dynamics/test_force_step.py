@@ -5,21 +5,22 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from rotlin_stand import ROTLIN
 
 from fluxbore.design.dynamics.bouc_wen import states
 from fluxbore.design.dynamics.force_control import NO_FRICTION, force_loop
+from fluxbore.design.dynamics.force_stand import controller_of, stand_of
 from fluxbore.design.dynamics.force_step import simulate_step
 from fluxbore.design.dynamics.force_step_figures import dominant_pole, step_figures
 from fluxbore.design.dynamics.guides import Guides
 from fluxbore.design.dynamics.linearised import FILTERED, UNFILTERED, force_transfer
 from fluxbore.design.dynamics.magnetic_spring import LinearSpring
-from fluxbore.design.dynamics.rotlin_parameters import RotLinParameters, rotlin_controller, rotlin_stand
 from fluxbore.design.errors import DesignError
 from fluxbore.design.poles import poles
 
-PARAMETERS = RotLinParameters()
-STAND = rotlin_stand(PARAMETERS)
-CONTROLLER = rotlin_controller(PARAMETERS)
+PARAMETERS = ROTLIN
+STAND = stand_of(PARAMETERS, distorted=False)
+CONTROLLER = controller_of(PARAMETERS)
 EXACT = replace(STAND, angle_count=0.0, position_count=0.0)
 FREE = replace(EXACT, guides=Guides())
 KNOWING_NONE = replace(CONTROLLER, friction=NO_FRICTION)
@@ -59,7 +60,7 @@ def test_the_error_is_the_hysteresis_that_the_controller_does_not_know(force):
     assert remembering.error < -0.01 * force
     assert remembering.error == pytest.approx(hysteresis_share(run), abs=1e-3)
     rubbing = step_figures(simulate_step(replace(STIFFER, guides=STAND.guides), CONTROLLER, force, SETTLED))
-    held = PARAMETERS.guide_friction
+    held = PARAMETERS.friction
     assert -1.02 * held < rubbing.error - remembering.error < -0.9 * held
 
 
@@ -130,7 +131,7 @@ def test_a_distortion_that_is_known_does_not_matter_at_the_end():
     def wavy(angle):
         return 2e-5 * (math.sin(angle + 1.0) - math.sin(1.0))
 
-    bent = replace(STIFFER, distortion=wavy)
+    bent = replace(STIFFER, distortion=lambda angle, position: wavy(angle))
     even, blind = (step_figures(simulate_step(stand, KNOWING_NONE, 50.0, SETTLED)) for stand in (STIFFER, bent))
     knowing = step_figures(simulate_step(bent, replace(KNOWING_NONE, distortion=wavy), 50.0, SETTLED))
     assert abs(blind.error - even.error) > 1.0

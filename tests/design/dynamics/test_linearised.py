@@ -7,8 +7,10 @@ from random import Random
 import numpy as np
 import pytest
 from force_loop_appendix import published_denominator, published_numerator
+from rotlin_stand import ROTLIN
 
 from fluxbore.design.dynamics.force_control import force_loop
+from fluxbore.design.dynamics.force_stand import controller_of, stand_of
 from fluxbore.design.dynamics.linearised import (
     FILTERED,
     OBSERVER_SPEEDS,
@@ -18,12 +20,11 @@ from fluxbore.design.dynamics.linearised import (
     force_characteristic,
     force_transfer,
 )
-from fluxbore.design.dynamics.rotlin_parameters import RotLinParameters, rotlin_controller, rotlin_stand
 from fluxbore.design.poles import poles
 from fluxbore.design.routh_hurwitz import sign_changes
 
-STAND = rotlin_stand(RotLinParameters())
-NOMINAL = force_loop(STAND.plant, STAND.environment, rotlin_controller(RotLinParameters()))
+STAND = stand_of(ROTLIN)
+NOMINAL = force_loop(STAND.plant, STAND.environment, controller_of(ROTLIN))
 UNIT = 100.0
 
 # As the paper draws its loci: K_e to 5000 kN/m, K_l* to 10 000 kN/m; D_e of the load, none, and more of it.

@@ -1,0 +1,86 @@
+"""Poles of the force control over the RotLin paper's grid: K_e to 5000 kN/m (Fig. 23), K_l* to 10 000 kN/m (Fig. 24).
+
+The loop is linearised (`linearised`), with the disturbance observer on the rotor's own speed, as the appendix has it,
+and on the filtered speed, as it can be built.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fluxbore.design.dynamics.force_control import force_loop
+from fluxbore.design.dynamics.force_parameters import ForceParameters
+from fluxbore.design.dynamics.force_stand import controller_of, stand_of
+from fluxbore.design.dynamics.linearised import UNFILTERED, ForceLoop, force_characteristic
+from fluxbore.design.poles import Complex, loci, poles
+
+Floats = NDArray[np.float64]
+
+LARGEST_K_E, LARGEST_K_L = 5e6, 10e6
+"""N/m, of Figs. 23 and 24."""
+
+STIFFNESSES, SLOPES = 75, 60
+"""Values of K_e and of K_l* on the grid, evenly spaced; the first is a step above zero, where a pole lies at zero."""
+
+OTHER_DAMPINGS = (0.0, 10.0, 1000.0)
+"""N s/m, D_e beside the load's own."""
+
+UNIT = 100.0
+"""rad/s, near the middle of the loop's poles."""
+
+
+@dataclass(frozen=True, slots=True)
+class PoleSurvey:
+    """Over the grid: the largest real part of any pole (1/s), at which K_e, K_l* (N/m) and D_e (N s/m) it lies, and
+    how many of the grid's points are unstable."""
+
+    largest: float
+    stiffness: float
+    slope: float
+    damping: float
+    unstable: int
+    points: int
+
+
+def nominal_loop(parameters: ForceParameters, force: float = 0.0) -> ForceLoop:
+    """The loop about a spring force (N) on the benchmark's own load."""
+    stand = stand_of(parameters)
+    return force_loop(stand.plant, stand.environment, controller_of(parameters), force)
+
+
+def pole_set(loop: ForceLoop, observer_speed: str = UNFILTERED) -> Complex:
+    """The six poles (1/s), the slowest first."""
+    return poles(force_characteristic(loop, observer_speed), UNIT)
+
+
+def survey(parameters: ForceParameters, observer_speed: str = UNFILTERED) -> PoleSurvey:
+    """All of the grid, at the load's own damping and at the others."""
+    stiffness = np.linspace(0, LARGEST_K_E, STIFFNESSES + 1)[1:]
+    slope = np.linspace(0, LARGEST_K_L, SLOPES + 1)[1:]
+    damping = np.unique([parameters.load_damping, *OTHER_DAMPINGS])
+    grid = replace(
+        nominal_loop(parameters), K_e=stiffness[:, np.newaxis, np.newaxis], K_l=slope[:, np.newaxis], D_e=damping
+    )
+    real = pole_set(grid, observer_speed)[..., 0].real
+    at = np.unravel_index(int(np.argmax(real)), real.shape)
+    return PoleSurvey(
+        float(real[at]),
+        float(stiffness[at[0]]),
+        float(slope[at[1]]),
+        float(damping[at[2]]),
+        int(np.count_nonzero(real > 0)),
+        real.size,
+    )
+
+
+def locus_over_load(parameters: ForceParameters, stiffness: Floats, observer_speed: str = UNFILTERED) -> Complex:
+    """(n, 6) poles, a branch in each column, over stiffnesses K_e (n,) (N/m) of the load at no force: Fig. 23."""
+    return loci(pole_set(replace(nominal_loop(parameters), K_e=stiffness), observer_speed))
+
+
+def locus_over_spring(parameters: ForceParameters, slope: Floats, observer_speed: str = UNFILTERED) -> Complex:
+    """The same over slopes K_l* (n,) (N/m) of the spring, each above zero: Fig. 24."""
+    return loci(pole_set(replace(nominal_loop(parameters), K_l=slope), observer_speed))
