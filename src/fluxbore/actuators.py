@@ -13,6 +13,7 @@ from fluxbore.geometry import coils
 from fluxbore.geometry.assembly import Assembly
 from fluxbore.optimize.benchmark import Benchmark
 from fluxbore.optimize.hybrid_contact_force import MCFC
+from fluxbore.optimize.lead_screw_benchmark import FORCE
 from fluxbore.reports import kind_words
 from fluxbore.reports.kind_words import PLAIN, KindWords
 
@@ -49,7 +50,7 @@ ACTUATORS: dict[str, Actuator] = {
         hybrid_views.femm_model,
         {MCFC.name: MCFC},
     ),
-    "lead-screw": Actuator(lead_screw_views.assembly, kind_words.LEAD_SCREW),
+    "lead-screw": Actuator(lead_screw_views.assembly, kind_words.LEAD_SCREW, benchmarks={FORCE.name: FORCE}),
 }
 """Every kind of actuator by its name in the specification."""
 
