@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from fluxbore.optimize.benchmark import BenchmarkResult
-from fluxbore.reports import contact_force
+from fluxbore.reports import contact_force, force_benchmark
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,6 +25,7 @@ class BenchmarkSection:
 
 SECTIONS: dict[str, BenchmarkSection] = {
     "mcfc": BenchmarkSection("contact-force", "Contact force", "contact_force.html", contact_force.section),
+    "force": BenchmarkSection("force-benchmark", "Force, simulated", "force_benchmark.html", force_benchmark.section),
 }
 """Every benchmark that has a section."""
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 from fluxbore.design.keys import Value
@@ -11,10 +13,13 @@ from fluxbore.design.spec import Spec
 from fluxbore.design.units import DIMENSIONS
 from fluxbore.optimize.benchmark import BenchmarkResult, DesignRun, Published
 from fluxbore.reports.tables import Cell, Table
-from fluxbore.reports.wording import DASH, Scale, capital, key_scale, plain, scale
+from fluxbore.reports.wording import DASH, Scale, capital, key_scale, plain, scale, significant
 
 GIVEN = "as the specification has it, without a mark"
 """Why a parameter has its value, where the specification gives it and no reason."""
+
+OWN = "the design's own"
+"""The same, where the specification leaves it out."""
 
 
 def statistics(result: BenchmarkResult) -> Table:
@@ -39,7 +44,7 @@ def statistics(result: BenchmarkResult) -> Table:
     over = ("Over the seeds",) if several else ()
     head = ("Figure", "Simulated", *over, "Published", "Difference", "Reproduced", "Where it is published")
     words = frozenset({len(head) - 2, len(head) - 1})
-    return Table("The paper's figures, simulated", head, tuple(rows), words=words)
+    return Table("The paper's figures, simulated", head, tuple(rows), words=words, signs=True)
 
 
 def seeds(result: BenchmarkResult) -> Table:
@@ -57,18 +62,23 @@ def seeds(result: BenchmarkResult) -> Table:
     return Table("Every seed", head, rows)
 
 
-def parameters(spec: Spec, prefix: str, default: str) -> Table:
+def parameters(spec: Spec, prefix: str, default: str, own: Mapping[str, float] | None = None) -> Table:
     """Every key of the benchmark: its value, where it comes from and why.
 
-    default : what is said of a value that is the key's own default and bears no reason.
+    default : what is said of a value that is the key's own default and bears no reason. own : by the rest of their
+    names, values (SI) of the design itself, which stand for keys that the specification leaves out.
     """
-    notes = {note.key: note for note in spec.notes}
+    notes, given = {note.key: note for note in spec.notes}, own or {}
     rows = []
     for key in spec.kind.keys:
-        if not key.name.startswith(prefix) or key.name not in spec.values:
+        if not key.name.startswith(prefix):
             continue
-        value, note = spec.values[key.name], notes.get(key.name)
+        value, note = spec.values.get(key.name), notes.get(key.name)
         unmarked = default if value == key.default else GIVEN
+        if value is None:
+            value, unmarked = given.get(key.leaf), OWN
+        if value is None:
+            continue
         rows.append(
             (
                 Cell(capital(key.leaf.replace("_", " "))),
@@ -96,13 +106,11 @@ def missed(result: BenchmarkResult) -> tuple[str, ...]:
     found = []
     for item in result.benchmark.published:
         value = item.of(result.run.figures)
-        if item.reproduced(result.run.figures) is not False or value is None or item.value is None:
+        if item.reproduced(result.run.figures) is not False or value is None:
             continue
         unit = _scale(item, [value, item.value])
-        found.append(
-            f"{_label(item)}: {unit.quantity(value)} is simulated, {unit.quantity(item.value)} published, which "
-            f"is further apart than {unit.quantity(item.within)}."
-        )
+        given = "" if item.value is None else f", {unit.quantity(item.value)} published"
+        found.append(f"{_label(item)}: {unit.quantity(value)} is simulated{given}; it is not {_limits(item, unit)}.")
     return tuple(found)
 
 
@@ -124,10 +132,13 @@ def comparison(runs: Sequence[DesignRun], errors: Sequence[Published], causes: S
     return Table("Designs on the same test stand, and what makes them differ", head, tuple(rows))
 
 
-def variations(result: BenchmarkResult) -> Table:
-    """The first seed under every other condition, beside the same seed as it was."""
+def variations(result: BenchmarkResult, wanted: Sequence[Published] | None = None) -> Table:
+    """The first seed under every other condition, beside the same seed as it was.
+
+    wanted : the figures to show, of those that any condition changes; all of these without it.
+    """
     first = result.run.simulations[0]
-    shown = result.moved
+    shown = [item for item in result.moved if wanted is None or item in wanted]
     everyone = [first.figures, *(run.figures for run in result.variations if run.ok)]
     scales = {item.path: _scale(item, [item.of(figures) for figures in everyone]) for item in shown}
 
@@ -138,14 +149,18 @@ def variations(result: BenchmarkResult) -> Table:
     for run in result.variations:
         rows.append(row(run.label if run.ok else f"{run.label}: {' '.join(run.reasons)}", run.figures, ""))
     head = ("One change at a time", *(_titled(item, scales[item.path]) for item in shown))
-    return Table(f"What a tenth more or less does; seed {first.seed}", head, tuple(rows))
+    seed = f"; seed {first.seed}" if result.benchmark.random else ""
+    return Table(f"What a tenth more or less does{seed}", head, tuple(rows))
 
 
 def _scale(item: Published, values: Sequence[float | None]) -> Scale:
+    if item.dimension == "fraction":
+        finest = min((abs(value) for value in (*values, item.within) if value), default=1.0)
+        return replace(scale(item.dimension, values), decimals=min(max(2, -math.floor(math.log10(100 * finest))), 4))
     if item.dimension in DIMENSIONS:
         return scale(item.dimension, values)
     whole = all(value is None or float(value).is_integer() for value in values)
-    return Scale("", 1.0, decimals=0 if whole else 1)
+    return Scale("", 1.0, decimals=0 if whole else 2)
 
 
 def _label(item: Published) -> str:
@@ -173,8 +188,14 @@ def _signed(unit: Scale, change: float, *, unit_too: bool = True) -> str:
     return f"{sign}{text}\u00a0{unit.unit}" if unit.unit and unit_too else f"{sign}{text}"
 
 
+def _limits(item: Published, unit: Scale) -> str:
+    """What it takes to be reproduced, each limit without the zeros behind it."""
+    sign = f"\u00a0{unit.unit}" if unit.unit else ""
+    return item.limits(lambda value: f"{significant(unit.shown(value), 3)}{sign}")
+
+
 def _verdict(unit: Scale, item: Published, reproduced: bool | None) -> tuple[str, str]:
     if reproduced is None:
         return (DASH, "muted")
-    within = f"within {unit.quantity(item.within)}"
-    return (f"✓ {within}", "good") if reproduced else (f"✗ not {within}", "bad")
+    limits = _limits(item, unit)
+    return (f"✓ {limits}", "good") if reproduced else (f"✗ not {limits}", "bad")

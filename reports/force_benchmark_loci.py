@@ -2,16 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fluxbore.design.dynamics.force_step_figures import POLE_UNIT
-from fluxbore.design.dynamics.linearised import FILTERED, OBSERVER_SPEEDS, UNFILTERED, ForceLoop, force_characteristic
-from fluxbore.design.poles import loci, poles
+from fluxbore.design.dynamics.force_parameters import ForceParameters
+from fluxbore.design.dynamics.force_poles import (
+    LARGEST_K_E,
+    LARGEST_K_L,
+    locus_over_load,
+    locus_over_spring,
+    nominal_loop,
+    pole_set,
+)
+from fluxbore.design.dynamics.linearised import FILTERED, OBSERVER_SPEEDS, UNFILTERED, ForceLoop
 from fluxbore.reports.svg import CHOSEN, INK, PUBLISHED, Drawing, drawing, new_figure, style
 from fluxbore.reports.wording import plain, significant
 
@@ -44,34 +51,56 @@ CROWDED = 3
 class Axis:
     """A coefficient along which the poles are followed.
 
-    name : of `ForceLoop`. words : what it is. largest : where the locus ends (N/m). figure : the paper’s.
+    name : of `ForceLoop`. words : what it is. largest : where the locus ends (N/m). figure : the paper’s. locus : of
+    parameters, values (n,) (N/m) and the observer's speed, the poles (n, 6) (1/s), a branch in each column.
     """
 
     name: str
     words: str
     largest: float
     figure: str
+    locus: Callable[[ForceParameters, Floats, str], Complex]
+
+    def values(self) -> Floats:
+        """(points,) N/m, from nearly zero to the largest."""
+        return np.asarray(self.largest * np.linspace(0.0, 1.0, POINTS + 1)[1:] ** CROWDED)
+
+    def branches(self, parameters: ForceParameters, observer_speed: str) -> Complex:
+        """(points, 6) poles along the values."""
+        return self.locus(parameters, self.values(), observer_speed)
+
+    def poles(self, loop: ForceLoop, value: float, observer_speed: str) -> Complex:
+        """The six of a loop with this value (N/m) of the coefficient, the slowest first."""
+        return pole_set(loop.with_values({self.name: value}), observer_speed)
 
 
-ENVIRONMENT = Axis("K_e", "stiffness of the environment", 5e6, "Fig. 23")
-SLOPE = Axis("K_l", "slope of the spring", 10e6, "Fig. 24")
-"""As far as the paper follows them."""
+LOAD = Axis("K_e", "stiffness of the load", LARGEST_K_E, "Fig. 23", locus_over_load)
+SPRING = Axis("K_l", "slope of the spring", LARGEST_K_L, "Fig. 24", locus_over_spring)
 
 
-def locus(loop: ForceLoop, axis: Axis, observer_speed: str) -> Complex:
-    """(points, 6) poles (1/s), a branch a column, from a parameter of zero to its largest."""
-    values = axis.largest * np.linspace(0.0, 1.0, POINTS) ** CROWDED
-    return loci(_poles(loop, axis, values, observer_speed))
+def over_load(parameters: ForceParameters) -> Drawing:
+    """Fig. 23: at no force, with the benchmark's own load and stiffnesses around it marked."""
+    own = parameters.load_stiffness
+    marked = {stiffness_text(own): own, **{stiffness_text(k * own): k * own for k in (0.5, 1.5)}}
+    return loci_figure(parameters, LOAD, marked)
 
 
-def loci_figure(loop: ForceLoop, axis: Axis, marked: Mapping[str, float]) -> Drawing:
+def over_spring(parameters: ForceParameters) -> Drawing:
+    """Fig. 24: the spring's slope at no force, at the references of the steps, and far steeper ones."""
+    marked = {"no force": nominal_loop(parameters).K_l}
+    marked |= {f"{force:g}\u00a0N": nominal_loop(parameters, force).K_l for force in parameters.references}
+    steep = 5 * marked["no force"]
+    return loci_figure(parameters, SPRING, {**marked, stiffness_text(steep): steep})
+
+
+def loci_figure(parameters: ForceParameters, axis: Axis, marked: Mapping[str, float]) -> Drawing:
     """All poles, the ringing ones by the imaginary axis, and the slow one on the real axis by zero.
 
     marked : values of the parameter (N/m) whose slow pole is named, by that name; the first is the design's.
     """
-    branches = {speed: locus(loop, axis, speed) for speed in OBSERVER_SPEEDS}
-    design = next(iter(marked.values()))
-    here = {speed: _poles(loop, axis, design, speed) for speed in OBSERVER_SPEEDS}
+    loop, design = nominal_loop(parameters), next(iter(marked.values()))
+    branches = {speed: axis.branches(parameters, speed) for speed in OBSERVER_SPEEDS}
+    here = {speed: axis.poles(loop, design, speed) for speed in OBSERVER_SPEEDS}
     with style():
         canvas = new_figure(WIDE, 520.0)
         plots = canvas.subplot_mosaic(
@@ -103,19 +132,32 @@ def loci_figure(loop: ForceLoop, axis: Axis, marked: Mapping[str, float]) -> Dra
         return drawing(canvas, f"force-loci-{axis.name.lower().replace('_', '-')}", alt, caption, wide=True)
 
 
+def onset(parameters: ForceParameters, observer_speed: str) -> float | None:
+    """The stiffness (N/m) of the load at which the loop becomes unstable on the way of `LOAD`; None where it does not.
+
+    On the line between two points of the locus, which lie within 3 % of one another there.
+    """
+    values = LOAD.values()
+    real = np.max(LOAD.branches(parameters, observer_speed).real, axis=1)
+    after = int(np.argmax(real > 0))
+    if real[after] <= 0:
+        return None
+    if after == 0:
+        return float(values[0])
+    share = real[after - 1] / (real[after - 1] - real[after])
+    return float(values[after - 1] + share * (values[after] - values[after - 1]))
+
+
 def rightmost(branches: Complex) -> str:
-    """The largest real part of a ringing pole at a locus's end."""
-    return plain(float(np.max(_ringing(branches)[-1].real)), 2)
+    """The largest real part at a locus's end of the poles that ring, of all where none does."""
+    last = _ringing(branches)[-1]
+    return plain(float(np.max((last if len(last) else branches[-1]).real)), 2)
 
 
 def stiffness_text(value: float) -> str:
     """``2.25 kN/m`` and ``10 000 kN/m``, of N/m."""
     size = value / 1e3
     return f"{significant(size) if size < 1e3 else f'{size:,.0f}'.replace(',', chr(0x202F))}\u00a0kN/m"
-
-
-def _poles(loop: ForceLoop, axis: Axis, values: Floats | float, observer_speed: str) -> Complex:
-    return poles(force_characteristic(replace(loop, **{axis.name: values}), observer_speed), POLE_UNIT)
 
 
 def _ringing(branches: Complex) -> Complex:
@@ -134,8 +176,11 @@ def _draw(plot: Axes, branches: Complex, here: Complex, observer_speed: str) -> 
 
 def _by_the_imaginary_axis(plot: Axes, branches: Mapping[str, Complex]) -> None:
     """As near as the rightmost pairs at the end of their loci lie."""
-    last = {speed: max(_ringing(found)[-1], key=lambda pole: pole.real) for speed, found in branches.items()}
-    reach = max(abs(pole.real) for pole in last.values())
+    ends = {speed: _ringing(found)[-1] for speed, found in branches.items()}
+    last = {speed: max(end, key=lambda pole: pole.real) for speed, end in ends.items() if len(end)}
+    reach = max((abs(pole.real) for pole in last.values()), default=0.0)
+    if not reach:
+        return
     plot.set_xlim(-8 * reach, 3.5 * reach)
     plot.set_ylim(0.0, 1.12 * max(pole.imag for pole in last.values()))
     for speed, pole in last.items():
@@ -156,7 +201,7 @@ def _by_zero(
     plot: Axes, loop: ForceLoop, axis: Axis, marked: Mapping[str, float], branches: Mapping[str, Complex]
 ) -> None:
     """The slow pole on the real axis, with the parameter's values beside it."""
-    found = {name: float(_poles(loop, axis, value, UNFILTERED)[0].real) for name, value in marked.items()}
+    found = {name: float(axis.poles(loop, value, UNFILTERED)[0].real) for name, value in marked.items()}
     for speed in OBSERVER_SPEEDS:
         for branch in branches[speed].T:
             plot.plot(branch.real, branch.imag, color=COLOURS[speed], lw=WIDTHS[speed])

@@ -101,8 +101,8 @@ def test_figures_stand_beside_the_published_ones(alone):
     assert row[4] == f"+{median - 3.13:.3f} N"
     low, high = (pick(sim.figures["median_rmse"]["P-N"] for sim in alone.run.simulations) for pick in (min, max))
     assert row[2] == f"{low:.3f} to {high:.3f}"
-    assert row[5] == "✓ within 0.150 N"
-    assert cells(table, "Median RMSE, P-P")[5] == "✗ not within 0.200 N"
+    assert row[5] == "✓ within 0.15 N"
+    assert cells(table, "Median RMSE, P-P")[5] == "✗ not within 0.2 N"
     assert cells(table, "Cells of 36 with P-E lowest")[1:4] == ["36", "–", "36"]
     assert cells(table, "Contact area of the fin, s")[1] == "20.85 mm²"
 
