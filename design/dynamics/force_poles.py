@@ -16,6 +16,7 @@ from fluxbore.design.dynamics.force_parameters import ForceParameters
 from fluxbore.design.dynamics.force_stand import controller_of, stand_of
 from fluxbore.design.dynamics.linearised import UNFILTERED, ForceLoop, force_characteristic
 from fluxbore.design.poles import Complex, loci, poles
+from fluxbore.design.routh_hurwitz import sign_changes
 
 Floats = NDArray[np.float64]
 
@@ -56,15 +57,30 @@ def pole_set(loop: ForceLoop, observer_speed: str = UNFILTERED) -> Complex:
     return poles(force_characteristic(loop, observer_speed), UNIT)
 
 
-def survey(parameters: ForceParameters, observer_speed: str = UNFILTERED) -> PoleSurvey:
-    """All of the grid, at the load's own damping and at the others."""
+def grid_axes(parameters: ForceParameters) -> tuple[Floats, Floats, Floats]:
+    """K_e (N/m), K_l* (N/m) and D_e (N s/m) along the grid: the load's own damping and the others."""
     stiffness = np.linspace(0, LARGEST_K_E, STIFFNESSES + 1)[1:]
     slope = np.linspace(0, LARGEST_K_L, SLOPES + 1)[1:]
-    damping = np.unique([parameters.load_damping, *OTHER_DAMPINGS])
-    grid = replace(
+    return stiffness, slope, np.unique([parameters.load_damping, *OTHER_DAMPINGS])
+
+
+def grid_loop(parameters: ForceParameters) -> ForceLoop:
+    """The loop whose coefficients are arrays over all of the grid."""
+    stiffness, slope, damping = grid_axes(parameters)
+    return replace(
         nominal_loop(parameters), K_e=stiffness[:, np.newaxis, np.newaxis], K_l=slope[:, np.newaxis], D_e=damping
     )
-    real = pole_set(grid, observer_speed)[..., 0].real
+
+
+def unstable_by_routh(parameters: ForceParameters, observer_speed: str = UNFILTERED) -> int:
+    """How many points of the grid have a pole in the right half plane by Routh's table, which computes no pole."""
+    return int(np.count_nonzero(sign_changes(force_characteristic(grid_loop(parameters), observer_speed)) > 0))
+
+
+def survey(parameters: ForceParameters, observer_speed: str = UNFILTERED) -> PoleSurvey:
+    """All of the grid, by its poles."""
+    stiffness, slope, damping = grid_axes(parameters)
+    real = pole_set(grid_loop(parameters), observer_speed)[..., 0].real
     at = np.unravel_index(int(np.argmax(real)), real.shape)
     return PoleSurvey(
         float(real[at]),
