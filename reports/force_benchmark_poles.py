@@ -6,12 +6,19 @@ from collections.abc import Mapping
 from typing import Any
 
 from fluxbore.design.dynamics.force_parameters import ForceParameters
-from fluxbore.design.dynamics.force_poles import LARGEST_K_E, LARGEST_K_L, nominal_loop, pole_set
-from fluxbore.design.dynamics.linearised import FILTERED, OBSERVER_SPEEDS
+from fluxbore.design.dynamics.force_poles import (
+    LARGEST_K_E,
+    LARGEST_K_L,
+    grid_axes,
+    nominal_loop,
+    pole_set,
+    unstable_by_routh,
+)
+from fluxbore.design.dynamics.linearised import FILTERED, OBSERVER_SPEEDS, UNFILTERED
 from fluxbore.design.poles import Complex
 from fluxbore.reports.force_benchmark_loci import LABELS, LOAD, onset, stiffness_text
 from fluxbore.reports.tables import Cell, Table
-from fluxbore.reports.wording import capital, plain, significant
+from fluxbore.reports.wording import capital, listing, plain, significant
 
 
 def pole_table(parameters: ForceParameters) -> Table:
@@ -38,27 +45,35 @@ def listed(found: Complex) -> str:
 
 def sentences(figures: Mapping[str, Any], parameters: ForceParameters) -> tuple[str, ...]:
     """What the grid says of the published loop, and of the one that can be built."""
-    points = _count(figures["grid_points"])
     unstable, built = figures["grid_points_unstable"], figures["grid_points_unstable_filtered"]
+    dampings = listing(f"{damping:g}" for damping in grid_axes(parameters)[2])
     grid = (
-        f"On {points} points with K_e up to {stiffness_text(LARGEST_K_E)}, K_l* up to {stiffness_text(LARGEST_K_L)} "
-        "and four dampings of the load"
+        f"On {_count(figures['grid_points'])} points with K_e up to {stiffness_text(LARGEST_K_E)}, K_l* up to "
+        f"{stiffness_text(LARGEST_K_L)} and D_e of {dampings}\u00a0N\u00a0s/m"
     )
     largest = f"the largest real part is {_signed(figures['largest_pole_real_part'])}\u00a01/s"
-    first = (
-        f"{grid} no pole of the published loop lies in the right half plane; {largest}."
-        if not unstable
-        else f"{grid} {_count(unstable)} have a pole of the published loop in the right half plane; {largest}."
-    )
+    count = f"{_count(unstable)} have a pole" if unstable else "no pole"
+    verb = "" if unstable else " lies"
+    routh = routh_text(unstable_by_routh(parameters, UNFILTERED))
+    first = f"{grid} {count} of the published loop{verb} in the right half plane; {largest}. {routh}"
     if not built:
         return (first, "Nor has the loop whose observer reads the filtered speed, which can be built, such a pole.")
+    by_table = _count(unstable_by_routh(parameters, FILTERED))
+    worst = _signed(figures["largest_pole_real_part_filtered"])
     return (
         first,
         "The published loop needs the rotor’s unfiltered speed, an ideal derivative of the encoder. With the filtered "
-        f"speed, which can be built, {_count(built)} of the points are unstable, the worst by "
-        f"{_signed(figures['largest_pole_real_part_filtered'])}\u00a01/s.{_against_a_wall(figures, parameters)} That "
-        "any stiffness is stable therefore rests on the ideal derivative.",
+        f"speed, which can be built, {_count(built)} of the points are unstable ({by_table} by Routh’s table), the "
+        f"worst by {worst}\u00a01/s.{_against_a_wall(figures, parameters)} That any stiffness is stable therefore "
+        "rests on the ideal derivative.",
     )
+
+
+def routh_text(points: int) -> str:
+    """The Routh-Hurwitz criterion for the published loop on the grid, which fails at so many points."""
+    if not points:
+        return "The Routh–Hurwitz criterion holds at each of them: its first column never changes sign."
+    return f"The Routh–Hurwitz criterion fails at {_count(points)} of them."
 
 
 def _against_a_wall(figures: Mapping[str, Any], parameters: ForceParameters) -> str:

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from fluxbore.actuators import ACTUATORS
-from fluxbore.design.dynamics.force_poles import LARGEST_K_E, nominal_loop, pole_set
+from fluxbore.design.dynamics.force_poles import LARGEST_K_E, nominal_loop, pole_set, survey, unstable_by_routh
 from fluxbore.design.dynamics.linearised import FILTERED, UNFILTERED
 from fluxbore.design.dynamics.simulation import Simulation, Trace, Trial
 from fluxbore.design.performance import Performance
@@ -22,7 +22,7 @@ from fluxbore.optimize.lead_screw_benchmark import FORCE, DesignFigures
 from fluxbore.reports import benchmark_tables, force_benchmark, force_benchmark_loci, force_benchmark_loops
 from fluxbore.reports.benchmark_sections import SECTIONS
 from fluxbore.reports.content import ReportContent
-from fluxbore.reports.force_benchmark_poles import listed, sentences
+from fluxbore.reports.force_benchmark_poles import listed, routh_text, sentences
 from fluxbore.reports.page import render
 from fluxbore.reports.tables import Table
 
@@ -188,15 +188,24 @@ def test_the_onset_of_the_instability_is_a_pole_on_the_imaginary_axis():
 def test_stability_is_told_of_either_loop():
     """Catches an instability that only the grid's figures show, and one that is told where there is none."""
     first, second = map(plain, sentences(FIGURES, PARAMETERS))
-    assert "On 18 000 points with K_e up to 5 000 kN/m, K_l* up to 10 000 kN/m" in first
+    assert "On 18 000 points with K_e up to 5 000 kN/m, K_l* up to 10 000 kN/m and D_e of 0, 0.1, 10 and" in first
     assert "no pole of the published loop lies in the right half plane" in first
-    assert "4 242 of the points are unstable" in second
+    assert "The Routh–Hurwitz criterion holds at each of them" in first
+    assert "4 242 of the points are unstable (4 242 by Routh’s table)" in second
     assert "+0.14 1/s" in second
     assert "It begins at K_e = 3 6" in second
     _, calm = sentences({**FIGURES, "grid_points_unstable_filtered": 0}, PARAMETERS)
     assert "unstable" not in calm
     worse, _ = sentences({**FIGURES, "grid_points_unstable": 3}, PARAMETERS)
     assert "3 have a pole of the published loop in the right half plane" in plain(worse)
+
+
+def test_routh_and_the_poles_count_alike():
+    """Catches a table that is taken of another grid or of the other observer."""
+    for speed in (UNFILTERED, FILTERED):
+        assert unstable_by_routh(PARAMETERS, speed) == survey(PARAMETERS, speed).unstable
+    assert unstable_by_routh(PARAMETERS, FILTERED) > 0
+    assert "fails at 12 of them" in routh_text(12)
 
 
 def test_a_pair_of_poles_is_written_once():
