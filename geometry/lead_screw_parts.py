@@ -8,7 +8,8 @@ What is drawn, and what is not:
 - continuous magnets are cut flat at both ends of that length: a line along the axis crosses as many poles as the
   specification says, and the mass is that of the model's rings;
 - arcs are whole and alike. They stand wherever a middle lies within the length, so that those at the ends overhang it
-  by up to half of their own; a length of whole pitches has as many as the helix in it;
+  by up to half of their own; a length of whole pitches has as many as the helix in it. Both members' helices then are
+  half an arc's rise off the middle, so that the rotor overhangs as far at either end;
 - the motor's stator is an envelope. Bearings, guides, the motor's magnets and how parts are held are not drawn.
 """
 
@@ -18,7 +19,7 @@ import math
 from dataclasses import dataclass
 
 from fluxbore.design.errors import DesignError
-from fluxbore.design.lead_screw import Arcs, HelicalMagnets
+from fluxbore.design.lead_screw import Arcs, HelicalMagnets, LeadScrew
 from fluxbore.design.lead_screw_values import LeadScrewActuator
 from fluxbore.design.units import format_quantity
 from fluxbore.geometry import helix, unrolled
@@ -118,11 +119,11 @@ def _ring(
 def _magnets(actuator: LeadScrewActuator, member: _Member) -> list[Body]:
     """North and south of every start, continuous or in arcs. North is magnetised outwards."""
     shape, arcs = actuator.shape, member.shape.arcs
-    lead = shape.starts * shape.pitch
+    lead, offset = shape.starts * shape.pitch, _offset(shape)
     _check_number(member, shape.pitch, shape.starts)
     found: list[Body] = []
     for polarity, shift in (("N", 0.0), ("S", shape.pitch / 2)):
-        middles = [start * shape.pitch + shift for start in range(shape.starts)]
+        middles = [start * shape.pitch + shift + offset for start in range(shape.starts)]
         if arcs is None:
             role, pieces = (
                 f"{member.name} magnet {polarity}",
@@ -135,6 +136,12 @@ def _magnets(actuator: LeadScrewActuator, member: _Member) -> list[Body]:
             name = role if len(pieces) == 1 else f"{role} {i + 1:0{digits}d}"
             found.append(_piece(member, name, role, polarity, lead, outline))
     return found
+
+
+def _offset(shape: LeadScrew) -> float:
+    """Along the axis (m), of the north helices' middles from the members': the same for both, so that x_d stays 0."""
+    arcs = shape.rotor.arcs or shape.translator.arcs
+    return 0.0 if arcs is None else shape.starts * shape.pitch / (2 * arcs.per_turn)
 
 
 def _pieces(member: _Member, arcs: Arcs, lead: float, middles: list[float]) -> list[unrolled.Outline]:

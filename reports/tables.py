@@ -10,6 +10,7 @@ from fluxbore.optimize.evaluation import Evaluation
 from fluxbore.optimize.outcome import SweepResult
 from fluxbore.reports.content import PartRow, ReportContent
 from fluxbore.reports.wording import (
+    DASH,
     Scale,
     capital,
     change,
@@ -111,7 +112,10 @@ def parts(rows: Sequence[PartRow]) -> Table | None:
         space = ("dm³", 1e-3)
 
     def mass(value: float) -> str:
-        return f"{value / weight[1]:.2f}"
+        return f"{value / weight[1]:.2f}" if value else DASH
+
+    def volume(value: float) -> str:
+        return f"{value / space[1]:,.0f}".replace(",", "\u202f") if value else DASH
 
     lines = tuple(
         (
@@ -120,7 +124,7 @@ def parts(rows: Sequence[PartRow]) -> Table | None:
             Cell(row.material),
             Cell(row.size),
             Cell(str(row.count)),
-            Cell(f"{row.volume / space[1]:,.0f}".replace(",", "\u202f")),
+            Cell(volume(row.volume)),
             Cell(mass(row.mass)),
             Cell(mass(row.mass * row.count)),
         )
