@@ -29,6 +29,11 @@ def numbers(section: HelicalSection) -> NDArray[np.float64]:
     )
 
 
+def period_and_displacement(section: HelicalSection) -> tuple[int, int]:
+    """Their places in `numbers`."""
+    return len(section.layers) + 1, len(section.layers) + 3
+
+
 def magnets(section: HelicalSection) -> list[tuple[int, Bands]]:
     """Number and bands of each layer of magnets, from the inside out."""
     return [(k, layer.magnets) for k, layer in enumerate(section.layers) if isinstance(layer.magnets, Bands)]

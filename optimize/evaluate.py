@@ -28,7 +28,9 @@ class Model:
 MODELS: dict[str, Model] = {
     "coils": Model(coils_figures.by_network, coils_figures.by_fem, gradients=True),
     "hybrid": Model(hybrid_figures.by_network, hybrid_figures.by_fem, gradients=True, never=hybrid_gaps.never),
-    "lead-screw": Model(lead_screw_figures.by_network, lead_screw_figures.by_fem, never=lead_screw_gaps.never),
+    "lead-screw": Model(
+        lead_screw_figures.by_network, lead_screw_figures.by_fem, gradients=True, never=lead_screw_gaps.never
+    ),
 }
 """The model of every kind of actuator, by the kind's name."""
 

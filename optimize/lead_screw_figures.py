@@ -7,29 +7,44 @@ gear) is computed once, by the same functions, for both.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
 
+from fluxbore.design.lead_screw import LeadScrew
+from fluxbore.design.performance import Performance
 from fluxbore.design.spec import Spec
 from fluxbore.optimize.evaluation import NOT_CONVERGED, OK, Evaluation, failure
 from fluxbore.optimize.lead_screw_common import amplitudes, common_figures, complete, warnings
 from fluxbore.optimize.lead_screw_field import check_force, field_figures, magnetised, periods, solve_field
+from fluxbore.optimize.partials import closed_gradient
+
+if TYPE_CHECKING:
+    from fluxbore.design.force_series import ForceSeries
 
 
 def by_network(spec: Spec, gradient: Sequence[str] = ()) -> Evaluation:
     """The analytic field's figures, iron taken for infinitely permeable. Raises DesignError or MaterialError."""
+    screw = magnetised(spec)
+    series, performance = _analytic(spec, screw)
+    details = {"stall_displacement": series.peak[0], **amplitudes(series)}
+    told = warnings(spec, performance, ideal_iron=True)
+    found = Evaluation("network", OK, (), performance, details=details, warnings=told)
+    if not gradient:
+        return found
+    slopes = closed_gradient(spec, gradient, lambda moved, *_: _analytic(moved, magnetised(moved))[1])
+    return replace(found, gradient=slopes, norms={})
+
+
+def _analytic(spec: Spec, screw: LeadScrew) -> tuple[ForceSeries, Performance]:
+    """The closed form's force over displacement, and all figures. Raises DesignError where no force pulls back."""
     from fluxbore.design.helical_field import force_series
     from fluxbore.design.lead_screw_figures import back_iron_flux_density
 
-    screw = magnetised(spec)
     series = force_series(screw)
-    place, peak = series.peak
-    check_force(spec, peak)
+    check_force(spec, series.peak[1])
     inside, outside = back_iron_flux_density(screw)
     field = {"translator_iron_flux_density": inside, "rotor_iron_flux_density": outside}
-    performance = complete(spec, screw, series, peak, field)
-    details = {"stall_displacement": place, **amplitudes(series)}
-    return Evaluation(
-        "network", OK, (), performance, details=details, warnings=warnings(spec, performance, ideal_iron=True)
-    )
+    return series, complete(spec, screw, series, series.peak[1], field)
 
 
 def by_fem(spec: Spec, gradient: Sequence[str] = ()) -> Evaluation:
@@ -56,6 +71,10 @@ def by_fem(spec: Spec, gradient: Sequence[str] = ()) -> Evaluation:
         "series_miss": float(series.force(place)) / stall - 1,
         **amplitudes(series),
     }
-    return Evaluation(
-        "fem", OK, (), performance, details=details, warnings=warnings(spec, performance, ideal_iron=False)
-    )
+    told = warnings(spec, performance, ideal_iron=False)
+    found = Evaluation("fem", OK, (), performance, details=details, warnings=told)
+    if not gradient:
+        return found
+    from fluxbore.optimize import lead_screw_gradient
+
+    return replace(found, gradient=lead_screw_gradient.gradient(spec, field, performance, gradient), norms={})
