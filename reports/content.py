@@ -19,6 +19,7 @@ from fluxbore.optimize.outcome import Candidate, Check, SearchResult, SweepResul
 from fluxbore.optimize.pareto_result import ParetoResult
 from fluxbore.optimize.tolerance_result import RobustResult, ToleranceResult
 from fluxbore.reports.kind_words import PLAIN, KindWords
+from fluxbore.reports.lead_screw_content import ScrewContent
 
 Array = NDArray[np.float64]
 Triangles = NDArray[np.int_]
@@ -104,6 +105,7 @@ class ReportContent:
     words : what the actuator's kind calls things.
     front, tolerance, robust : what the study asked for besides a search.
     simulation : the benchmark in simulated time that the design was put through.
+    screw : what only a magnetic lead screw has.
     """
 
     spec: Spec
@@ -131,6 +133,7 @@ class ReportContent:
     tolerance: ToleranceResult | None = None
     robust: RobustResult | None = None
     simulation: BenchmarkResult | None = None
+    screw: ScrewContent | None = None
 
     @property
     def design_spec(self) -> Spec:

@@ -67,7 +67,7 @@ def machine_strip(field: FluxMap, limit: float, step: float) -> Drawing:
     with style():
         canvas = new_figure(1000.0, 945 * 2 * top / (end - start) + 52)
         plot = canvas.subplots()
-        _field(plot, field, limit, step, (start, end, top), mirrored=True, edge=0.35, width=0.5)
+        paint(plot, field, limit, step, (start, end, top), mirrored=True, edge=0.35, width=0.5)
         plot.set_xlabel("z (mm)")
         plot.set_ylabel("r (mm)")
         place = f"{field.position * 1e3:.4g} mm"
@@ -83,9 +83,9 @@ def close_up(field: FluxMap, spec: Spec, limit: float, step: float, name: str, t
     with style():
         canvas = new_figure(500.0, 430.0)
         plot = canvas.subplots()
-        mesh = _field(plot, field, limit, step, (start, end, top), mirrored=False, edge=0.8, width=0.8)
+        mesh = paint(plot, field, limit, step, (start, end, top), mirrored=False, edge=0.8, width=0.8)
         _labels(plot, field, start, end, top)
-        _colour_bar(canvas, plot, mesh)
+        colour_bar(canvas, plot, mesh)
         plot.set_xlabel("z (mm)")
         plot.set_ylabel("r (mm)")
         alt = f"{title}: flux density, field lines and parts over two pole pitches."
@@ -93,7 +93,7 @@ def close_up(field: FluxMap, spec: Spec, limit: float, step: float, name: str, t
         return drawing(canvas, name, alt, caption, dpi=150)
 
 
-def _field(
+def paint(
     plot: Axes,
     field: FluxMap,
     limit: float,
@@ -174,7 +174,8 @@ def _colours() -> Colormap:
     return LinearSegmentedColormap.from_list("flux density", stops)
 
 
-def _colour_bar(canvas: Figure, plot: Axes, mesh: Any) -> None:
+def colour_bar(canvas: Figure, plot: Axes | list[Axes], mesh: Any) -> None:
+    """The scale of |B| below one picture or several."""
     bar = canvas.colorbar(mesh, ax=plot, orientation="horizontal", extend="max", fraction=0.05, aspect=40)
     bar.set_label("flux density |B| (T)")
     if bar.solids is not None:

@@ -108,7 +108,10 @@ COILS = KindWords(
 
 LEAD_SCREW = KindWords(
     network="the analytic field",
-    network_note="The analytic field is that of (7) to (10) of the RotLin paper: infinitely permeable iron.",
+    network_note=(
+        "The analytic field is that of (7) to (10) of the RotLin paper, by modified Bessel functions: linear magnets, "
+        "and iron that is infinitely permeable wherever there is any. Both routes leave out the ends of the members."
+    ),
     moves=False,
     has_field=False,
     headlines=(
@@ -119,9 +122,37 @@ LEAD_SCREW = KindWords(
         "moving_mass",
         "outer_diameter",
     ),
+    main=(
+        "stall_force",
+        "spring_constant",
+        "stall_force_density",
+        "motor_torque",
+        "stall_torque",
+        "slip_margin",
+        "sudden_load_limit",
+        "moving_mass",
+        "total_mass",
+        "rotor_inertia",
+    ),
     symbols=(
-        ("x_d", "relative displacement: the way of the rotor's field less that of the mover"),
-        ("h", "lead over 2π: way of the field by the rotor's angle"),
-        ("l_p", "pitch, from one magnet to the next of the same polarity"),
+        ("x_d", "relative displacement h θ − x: the way of the rotor’s field less that of the mover"),
+        ("F", "force of the magnetic spring, which pulls x_d back to rest"),
+        ("h", "lead over 2π: the field’s way along the axis by the rotor’s angle θ"),
+        ("ζ", "z − h θ: along the axis, counted from where the helix stands at the angle θ"),
+        ("|B|", "magnitude of the flux density, of all three components"),
+        ("ψ", "helical flux function; its level lines are field lines"),
+        ("K_n", "force constants of (7) for the first, third and fifth harmonic of the pitch"),
+    ),
+    not_checked=(
+        "Ends: the last pole of each member has one neighbour only, and the field there is no helix. Its share of the "
+        "force is taken as that of a pole within; the pull of an end that leaves the other member is left out.",
+        "Eccentricity: a rotor that is not in the middle is pulled further out; bearings and guides must hold that and "
+        "the tolerance of the gap.",
+        "Faults of magnetisation and of place: magnets of unlike strength, pitch or angle, glue lines, joints of arcs. "
+        "They show as a displacement at rest that changes with position and angle, and as ripple.",
+        "Eddy currents in magnets, iron and frame while the rotor slips or turns fast, and the losses of the motor.",
+        "Hysteresis of the magnetic spring and friction: what a benchmark takes for them is measured, not computed.",
+        "Strength of magnets, glue and frame, bearing loads, whirling of a long translator.",
+        "The motor that turns the rotor: its torque constant and inertia are the specification’s.",
     ),
 )

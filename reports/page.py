@@ -17,6 +17,7 @@ from fluxbore.reports import (
     figure_tables,
     flux_picture,
     front,
+    lead_screw,
     optimum,
     section_drawing,
     sensitivity,
@@ -112,6 +113,7 @@ def _context(content: ReportContent) -> Mapping[str, Any]:
         "robust": _robust(content),
         "benchmark": benchmark_sections.benchmark_section(content.simulation),
         "failures": story.failures(search) if search else "",
+        "screw": _screw(content),
         "field": _field(content),
         "force_figures": _present(*_force(content)) if sound else (),
         "force_text": [text for text in (story.routes(sound), story.ripple(sound)) if text] if sound else [],
@@ -207,6 +209,12 @@ def _robust(content: ReportContent) -> dict[str, Any] | None:
         "sentences": tolerances.robust_sentences(content.spec, content.robust),
         "rounds": tolerances.rounds(content.spec, content.robust),
     }
+
+
+def _screw(content: ReportContent) -> dict[str, Any] | None:
+    if content.screw is None or content.design is None:
+        return None
+    return lead_screw.section(content.screw, content.design_spec, content.design)
 
 
 def _field(content: ReportContent) -> dict[str, Any] | None:

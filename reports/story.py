@@ -10,6 +10,7 @@ from fluxbore.design.spec import Spec
 from fluxbore.design.study import Constraint, Variable
 from fluxbore.optimize.evaluation import Evaluation
 from fluxbore.optimize.outcome import Candidate, SearchResult, SweepResult
+from fluxbore.reports import lead_screw
 from fluxbore.reports.content import ReportContent
 from fluxbore.reports.kind_words import PLAIN, KindWords
 from fluxbore.reports.tables import Cell
@@ -40,6 +41,12 @@ PRICE = {
     "pneumatic_force_retract": -1,
     "outer_diameter": 1,
     "length": 1,
+    "stall_force": -1,
+    "slip_margin": -1,
+    "sudden_load_limit": -1,
+    "motor_torque": 1,
+    "rotor_inertia": 1,
+    "magnet_mass": 1,
 }
 """Figures that can be the price of a gain, with the sign of the change that makes them worse."""
 
@@ -325,6 +332,8 @@ def seen(content: ReportContent) -> tuple[str, ...]:
         if over and content.words.network_note:
             sense = "an upper bound, as expected" if over.startswith("+") else "not the upper bound that was expected"
             found.append(f"Equation (2) of the network lies {over} against the finite elements: {sense}.")
+    if content.screw is not None:
+        found += lead_screw.seen(content.screw, design)
     found += _masses(content)
     return tuple(item for item in found if item)
 

@@ -22,6 +22,17 @@ DIGITS = 4
 WEAK_FIELD = 0.1
 """T, below which the page gives flux densities in millitesla."""
 
+SMALL_INERTIA = 1e-2
+"""kg m^2, below which the page gives moments of inertia in g cm^2."""
+
+SMALL_SHARE = 1e-3
+"""Below which per cent have three digits rather than two decimals."""
+
+FRAGMENTS = frozenset(
+    ("of", "between", "against", "along", "by", "whatever", "around", "within", "outside", "at", "that")
+)
+"""Words with which a key's description only goes on from its name, so that its name is the label."""
+
 _UNIT_SIGNS = {
     "N/sqrt(W)": "N/√W",
     "ohm": "Ω",
@@ -83,7 +94,7 @@ def scale(dimension: str, values: Iterable[float | None], digits: int = DIGITS) 
     largest = max(sizes, default=0.0)
     smallest = min((v for v in sizes if v > largest / 100), default=0.0)
     if dimension == "fraction":
-        return Scale("%", 0.01, decimals=2)
+        return Scale("%", 0.01, decimals=_decimals(100 * smallest, 3) if 0 < largest < SMALL_SHARE else 2)
     if dimension == "count":
         least = min((v for v in sizes if v > largest / 1000), default=0.0)
         return Scale("", 1.0, decimals=0 if all(size.is_integer() for size in sizes) else _decimals(least, digits))
@@ -97,6 +108,8 @@ def scale(dimension: str, values: Iterable[float | None], digits: int = DIGITS) 
         name = "kA/m"
     elif dimension == "mass" and largest >= HEAVY:
         name = "kg"
+    elif dimension == "rotational inertia" and largest < SMALL_INERTIA:
+        name = "g cm^2"
     unit = table.units[name]
     size = abs((smallest - unit.offset) / unit.factor)
     return Scale(_sign(name), unit.factor, unit.offset, _decimals(size, digits))
@@ -194,8 +207,8 @@ def greek(text: str) -> str:
 def key_label(spec: Spec, name: str) -> str:
     """What a dotted key is called: the table's own short description, else the last part of its name.
 
-    Descriptions that run on are cut at the first comma, colon or semicolon; keys of several sections
-    that share one have the section behind it.
+    Descriptions that run on are cut at the first comma, colon or semicolon; those that go on from the key's name give
+    way to it. Keys of several sections that share a label have the section behind it.
     """
     own = {
         "actuator.mover.ring_width": "ring width",
@@ -209,6 +222,9 @@ def key_label(spec: Spec, name: str) -> str:
         return name.rpartition(".")[2].replace("_", " ")
     label = re.split(r"[;:,]", key.doc)[0].strip().replace("degC", "°C")
     alike = any(other.doc == key.doc and other.name != name for other in spec.kind.keys)
+    if label.split()[0] in FRAGMENTS or label == "radial":
+        label = key.leaf.replace("_", " ")
+        alike = any(other.leaf == key.leaf and other.name != name for other in spec.kind.keys)
     return f"{label} ({name.split('.')[-2].replace('_', ' ')})" if alike else label
 
 

@@ -19,7 +19,9 @@ from fluxbore.reports.kind_words import PLAIN, KindWords
 
 if TYPE_CHECKING:
     from fluxbore.fem.femm_model import FemmModel
+    from fluxbore.optimize.evaluation import Evaluation
     from fluxbore.reports.content import FluxMap, SlotComparison
+    from fluxbore.reports.lead_screw_content import ScrewContent
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,6 +31,7 @@ class Actuator:
     assembly : its parts where they stand in the middle of the stroke. words : what its report calls things.
     flux_map : its field at no current, for a picture. slots : the slotted-slotless comparison. femm_model : its
     cross-section as a FEMM model. benchmarks : the experiments in simulated time that it can be put through, by name.
+    screw : what a report shows of a magnetic lead screw alone, with its evaluation by finite elements.
     What a kind does not have is None, or empty.
     """
 
@@ -38,6 +41,7 @@ class Actuator:
     slots: Callable[[Spec], SlotComparison | None] | None = None
     femm_model: Callable[[Spec], FemmModel] | None = None
     benchmarks: Mapping[str, Benchmark] = field(default_factory=dict)
+    screw: Callable[[Spec, Evaluation], ScrewContent | None] | None = None
 
 
 ACTUATORS: dict[str, Actuator] = {
@@ -50,7 +54,12 @@ ACTUATORS: dict[str, Actuator] = {
         hybrid_views.femm_model,
         {MCFC.name: MCFC},
     ),
-    "lead-screw": Actuator(lead_screw_views.assembly, kind_words.LEAD_SCREW, benchmarks={FORCE.name: FORCE}),
+    "lead-screw": Actuator(
+        lead_screw_views.assembly,
+        kind_words.LEAD_SCREW,
+        benchmarks={FORCE.name: FORCE},
+        screw=lead_screw_views.screw_content,
+    ),
 }
 """Every kind of actuator by its name in the specification."""
 

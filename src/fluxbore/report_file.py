@@ -62,6 +62,7 @@ def write_report_file(
         tolerance=findings.tolerance,
         robust=findings.robust,
         simulation=findings.simulation,
+        screw=views.screw(final, found) if views.screw is not None else None,
     )
     return write_report(content, path)
 
