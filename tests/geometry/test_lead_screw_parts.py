@@ -2,6 +2,8 @@
 
 import dataclasses
 import math
+import re
+import shlex
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +12,7 @@ import pytest
 import fluxbore
 from fluxbore import report_content
 from fluxbore.actuators import actuator_of
+from fluxbore.cli import main
 from fluxbore.design import graphics
 from fluxbore.design.errors import DesignError, SpecError
 from fluxbore.design.lead_screw_figures import mover_mass, rotor_mass, translator_magnet_mass
@@ -324,3 +327,25 @@ def test_arcs_overhang_alike_at_both_ends(specs: dict[str, Spec]) -> None:
             z for _, z in magnets(whole, "rotor", "N")[0].profile
         )
         assert 0 < max(heights) - PITCH < own / 2
+
+
+@needs_gl
+def test_the_pages_command_writes_what_the_page_says(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    page = (ROTLIN.parents[1] / "docs" / "lead_screw.md").read_text(encoding="utf-8")
+    first, second = re.findall(r"^fluxbore (export .*)$", page, re.MULTILINE)
+    monkeypatch.chdir(tmp_path)
+    assert main([str(ROTLIN) if word == "examples/rotlin.toml" else word for word in shlex.split(first)]) == 0
+    assert capsys.readouterr().err == ""
+    assert (tmp_path / "cad" / "RotLin.step").exists()
+    assert len(list((tmp_path / "cad" / "parts").iterdir())) == 8
+    overrides = dict(word.split("=", 1) for word in shlex.split(second) if "=" in word)
+    whole = drawn(load(ROTLIN, overrides))
+    assert [len(magnets(whole, "translator", polarity)) for polarity in "NS"] == [100, 100]
+    assert "100 arcs of each polarity" in page
+    for form, overhang in (("stepped arcs", "0.86 mm in steps"), ("helical arcs", "1.29 mm along the helix")):
+        rotor = magnets(drawn(load(ROTLIN, arcs("rotor", form))), "rotor", "N")
+        assert overhang in " ".join(page.split())
+        beyond = max(z for part in rotor for _, z in part.outline) - PITCH
+        assert f"{beyond * 1e3:.2f} mm" == " ".join(overhang.split()[:2])
