@@ -1,4 +1,4 @@
-"""A periodic magnetic spring as the sum of its odd harmonics: force, stiffness and energy over the displacement."""
+"""A periodic magnetic spring as the sum of its harmonics: force, stiffness and energy over the displacement."""
 
 from __future__ import annotations
 
@@ -12,23 +12,31 @@ from numpy.typing import ArrayLike, NDArray
 Floats = NDArray[np.float64]
 
 SAMPLES = 720
-"""Over a quarter of a period, from which the top of the force is refined."""
+"""Over a quarter or half of a period, from which the top of the force is refined."""
+
+
+ALIKE = 1e-3
+"""Of the force: two tops that differ by no more are equal but for the mesh they were computed on."""
 
 
 @dataclass(frozen=True, eq=False)
 class ForceSeries:
     """F(x_d) = sum F_n sin(m_n x_d), equation (9) of the RotLin paper, with F_n = 4 pi p_a J_c K_n.
 
-    amplitude : F_n (N), (H,), of n = 1, 3, 5 ...   pitch : l_p (m), the full period; m_n = 2 pi n/l_p.
+    amplitude : F_n (N), (H,).   pitch : l_p (m), the full period; m_n = 2 pi n/l_p.
+    orders : n of each, in any order; n = 1, 3, 5 ... without them. Iron that saturates adds even ones: then poles that
+    attract are not the mirror of those that repel.
     """
 
     amplitude: Floats
     pitch: float
+    orders: tuple[int, ...] | None = None
 
     @cached_property
     def wave(self) -> Floats:
         """m_n (1/m), (H,)."""
-        return np.asarray(2 * np.pi / self.pitch * (2.0 * np.arange(len(self.amplitude)) + 1))
+        orders = 2.0 * np.arange(len(self.amplitude)) + 1 if self.orders is None else np.array(self.orders, dtype=float)
+        return np.asarray(2 * np.pi / self.pitch * orders)
 
     def force(self, displacement: ArrayLike) -> Floats:
         """N, that pulls the displacement (m) back to zero, of any shape."""
@@ -55,12 +63,18 @@ class ForceSeries:
     def peak(self) -> tuple[float, float]:
         """The displacement (m) of the largest force, first met from zero, and that force (N).
 
-        Every odd harmonic is even about a quarter of the period, so that the first quarter holds it.
+        Every odd harmonic is even about a quarter of the period, so that the first quarter holds it. With even ones it
+        is in the first half, and of two tops that are `ALIKE` the nearer counts.
         """
-        places = np.linspace(0.0, self.pitch / 4, SAMPLES + 1)
-        best = int(np.argmax(self.force(places)))
+        reach = self.pitch / 4 if self.orders is None else self.pitch / 2
+        places = np.linspace(0.0, reach, SAMPLES + 1)
+        forces = self.force(places)
+        best = int(np.argmax(forces))
         if best == SAMPLES:
-            return self.pitch / 4, float(self.force(self.pitch / 4))
+            return reach, float(self.force(reach))
+        if self.orders is not None and best > 0:
+            tops = np.flatnonzero((forces[1:-1] >= forces[:-2]) & (forces[1:-1] >= forces[2:])) + 1
+            best = int(tops[forces[tops] >= (1 - ALIKE) * forces[best]][0])
         low, high = places[max(best - 1, 0)], places[best + 1]
         top = self._falling(float(low), float(high))
         return top, float(self.force(top))

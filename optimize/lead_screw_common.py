@@ -102,10 +102,11 @@ def complete(
 
 
 def amplitudes(series: ForceSeries) -> dict[str, float]:
-    """The series for the details: `force_amplitude_1` and so on by the odd order n (N), as far as they count."""
-    largest = float(abs(series.amplitude).max())
-    kept = abs(series.amplitude) > 1e-9 * largest
-    return {f"force_amplitude_{2 * i + 1}": float(series.amplitude[i]) for i in range(kept.size) if kept[i]}
+    """The series for the details: `force_amplitude_1` and so on by the order n (N), as far as they count."""
+    least = 1e-9 * float(abs(series.amplitude).max())
+    orders = series.orders or range(1, 2 * series.amplitude.size, 2)
+    named = {n: float(value) for n, value in zip(orders, series.amplitude, strict=True) if abs(value) > least}
+    return {f"force_amplitude_{n}": named[n] for n in sorted(named)}
 
 
 def warnings(spec: Spec, performance: Performance, ideal_iron: bool) -> tuple[str, ...]:
@@ -121,7 +122,7 @@ def warnings(spec: Spec, performance: Performance, ideal_iron: bool) -> tuple[st
 
 
 def _padded(series: ForceSeries) -> tuple[float, float]:
-    """F_3 and F_5 (N), zero where the gap lets none across."""
+    """F_3 and F_5 (N), zero where the gap lets none across. Odd orders come first."""
     second, third = (float(series.amplitude[i]) if i < series.amplitude.size else 0.0 for i in (1, 2))
     return second, third
 

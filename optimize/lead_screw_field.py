@@ -1,11 +1,13 @@
 """What the finite elements give of a magnetic lead screw: its field at a few displacements, and its force as a series.
 
-The members' north and south bands are alike and the iron has no memory, so that
+Mirrored along the axis a screw is itself with the displacement reversed, and shifted by a pitch it is itself:
 
-    F(-x) = -F(x),   F(l_p/2 - x) = F(x)
+    F(-x) = -F(x),   F(x + l_p) = F(x)
 
-hold with saturated iron too: F is a sum of sines of odd order, and the first quarter of the pitch tells all of it. It
-is met exactly at `QUARTERS` displacements and, to have its slope, next to rest.
+so that F is a sum of sines. In linear materials F(l_p/2 - x) = F(x) too, and they are those of odd order. Iron that
+saturates bends that: attracting poles fill it and repelling ones do not. The even sines are the second in the main (to
+1e-4 of the force where it is 1.6e-2), which one displacement beyond the quarter tells. The odd ones take `QUARTERS`
+displacements up to the quarter and, to have its slope, one next to rest.
 """
 
 from __future__ import annotations
@@ -31,7 +33,16 @@ if TYPE_CHECKING:
 
 QUARTERS = 4
 """Displacements that cut a quarter of the pitch into like parts. All are whole cells of the mesh, so that the members'
-lines meet as they do at rest. With the slope at rest they give harmonics up to n = 9."""
+lines meet as they do at rest. With the slope at rest they give odd harmonics up to n = 9."""
+
+BEYOND = 3 / 8
+"""Of the pitch: the mirror of a sample about the quarter, where the second harmonic is largest."""
+
+ORDERS = (*range(1, 2 * QUARTERS + 2, 2), 2)
+"""n of the sines through the samples."""
+
+CENTRED = 1e-4
+"""Of the pitch: a peak this near to the quarter is taken there, which loses 2e-7 of the force at most."""
 
 REST = 1e-3
 """Of the pitch: near enough to rest that the force over it is the slope to 1e-5, and far enough for its digits."""
@@ -52,7 +63,7 @@ class LeadScrewField:
     """The solutions of one screw.
 
     samples : at `displacements` of the pitch, in that order. slipping : at half a pitch. top : at the peak
-    if that is none of the samples, as of narrow magnets beside a narrow gap; None otherwise.
+    if that is none of the samples, as of narrow magnets beside a narrow gap or of iron that saturates; None otherwise.
     """
 
     screw: LeadScrew
@@ -93,7 +104,7 @@ class LeadScrewField:
         from fluxbore.fem.helical_force import force
 
         forces = np.array([force(item) for item in self.samples]) * periods(self.screw)
-        return ForceSeries(interpolation() @ forces, self.screw.pitch)
+        return ForceSeries(interpolation() @ forces, self.screw.pitch, ORDERS)
 
 
 def periods(screw: LeadScrew) -> float:
@@ -102,17 +113,15 @@ def periods(screw: LeadScrew) -> float:
 
 
 def displacements() -> tuple[float, ...]:
-    """Of the pitch: from the quarter, where the peak is as a rule, down to next to rest."""
-    return (*(k / (4 * QUARTERS) for k in range(QUARTERS, 0, -1)), REST)
+    """Of the pitch: the quarter, where the peak is as a rule, comes first and next to rest last."""
+    return (*(k / (4 * QUARTERS) for k in range(QUARTERS, 0, -1)), BEYOND, REST)
 
 
 def interpolation() -> Floats:
-    """Matrix that makes amplitudes F_n, n = 1, 3, 5 ..., of the forces at `displacements`, of whatever pitch."""
+    """Matrix that makes amplitudes F_n of `ORDERS` of the forces at `displacements`, of whatever pitch."""
     import numpy as np
 
-    shares = np.array(displacements())
-    orders = 2.0 * np.arange(shares.size) + 1
-    return np.asarray(np.linalg.inv(np.sin(2 * np.pi * np.outer(shares, orders))))
+    return np.asarray(np.linalg.inv(np.sin(2 * np.pi * np.outer(displacements(), ORDERS))))
 
 
 def magnetised(spec: Spec) -> LeadScrew:
@@ -148,7 +157,8 @@ def solve_field(spec: Spec, screw: LeadScrew) -> LeadScrewField:
     check_force(spec, peak)
     near = field.samples[0]
     field = replace(field, slipping=_solve(spec, screw, (SLIPPING,), near)[0])
-    return field if place == screw.pitch / 4 else _topped(spec, field, place / screw.pitch)
+    share = place / screw.pitch
+    return field if abs(share - 0.25) <= CENTRED else _topped(spec, field, share)
 
 
 def _topped(spec: Spec, field: LeadScrewField, share: float) -> LeadScrewField:

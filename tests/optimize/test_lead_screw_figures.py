@@ -58,7 +58,7 @@ def series_of(found: Evaluation, pitch: float = PITCH) -> ForceSeries:
         for name, value in found.details.items()
         if name.startswith("force_amplitude_")
     }
-    return ForceSeries(np.array([orders.get(n, 0.0) for n in range(1, max(orders) + 1, 2)]), pitch)
+    return ForceSeries(np.array(list(orders.values())), pitch, tuple(orders))
 
 
 @pytest.fixture(scope="module")
@@ -132,7 +132,7 @@ def test_the_peak_elsewhere_is_solved_there(narrow: LeadScrewField) -> None:
     spec, pitch = rotlin(NARROW), narrow.screw.pitch
     assert narrow.top is not None
     place = narrow.stall.section.displacement
-    assert 0.19 * pitch < place < 0.23 * pitch
+    assert 0.18 * pitch < place < 0.21 * pitch
     top = force(narrow.stall)
     assert top > max(force(item) for item in narrow.samples)
     below, above = (force(solve(section(spec, narrow.screw, place + aside * pitch))) for aside in (-5e-4, 5e-4))
@@ -151,6 +151,26 @@ def test_the_masses_of_the_parts() -> None:
     assert sum(row.mass for row in rows if "magnet" in row.part.role) == pytest.approx(found.magnet_mass, rel=1e-9)
 
 
+def test_saturated_iron_bends_the_force() -> None:
+    """Iron of 0.5 mm behind a pitch of 10 mm: the series, even sine and all, against fields at other displacements.
+
+    Catches a mirror about the quarter of the pitch, which saturation breaks by 3 %, and a peak that is taken there.
+    """
+    spec = rotlin({**dict.fromkeys(BARE, 0.5e-3), "actuator.pitch": 10e-3, "actuator.translator.thickness": 10e-3})
+    screw = magnetised(spec)
+    field = solve_field(spec, screw)
+    before, after, behind = (
+        force(solve(section(spec, screw, share * screw.pitch))) * periods(screw) for share in (0.16, 0.34, -0.16)
+    )
+    assert after > 1.02 * before
+    assert behind == pytest.approx(-before, rel=1e-6)
+    assert field.series.force(0.16 * screw.pitch) == pytest.approx(before, rel=1e-3)
+    assert field.series.force(0.34 * screw.pitch) == pytest.approx(after, rel=1e-3)
+    assert field.top is not None
+    assert field.stall.section.displacement > 0.25 * screw.pitch
+    assert force(field.stall) > force(field.samples[0])
+
+
 def test_the_series_holds_between_the_samples(narrow: LeadScrewField) -> None:
     """Catches too few displacements, or a slope that does not belong to them."""
     assert narrow.top is not None
@@ -160,7 +180,7 @@ def test_the_series_holds_between_the_samples(narrow: LeadScrewField) -> None:
     closed = evaluate(rotlin(NARROW), "network").performance
     assert force(narrow.top) * periods(narrow.screw) == pytest.approx(closed.stall_force, rel=1e-3)
     assert narrow.series.stiffness(0.0) == pytest.approx(closed.spring_constant, rel=2e-3)
-    assert len(narrow.samples) == QUARTERS + 1
+    assert len(narrow.samples) == QUARTERS + 2
 
 
 def test_flux_along_the_iron(steel: Evaluation, ideal: Evaluation) -> None:
