@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from fluxbore.design.errors import OutputError
+from fluxbore.design.keys import Key
 from fluxbore.optimize.folder import write_atomic
 from fluxbore.reports import (
     benchmark_sections,
@@ -29,7 +30,7 @@ from fluxbore.reports import (
 )
 from fluxbore.reports.content import ReportContent
 from fluxbore.reports.svg import Drawing
-from fluxbore.reports.wording import capital, duration, greek, key_label, symbol
+from fluxbore.reports.wording import FRAGMENTS, capital, duration, greek, key_label, symbol
 
 if TYPE_CHECKING:
     from markupsafe import Markup
@@ -244,9 +245,15 @@ def _force(content: ReportContent) -> tuple[Drawing | None, ...]:
 def _symbols(content: ReportContent) -> list[tuple[str, str]]:
     """Every symbol of the specification that this report's texts or tables can show, and those of the field."""
     spec = content.spec
-    own = {symbol(spec, key.name): key.doc for key in spec.kind.keys if key.name in spec.values}
+    own = {symbol(spec, key.name): _meaning(key) for key in spec.kind.keys if key.name in spec.values}
     plain = [(sign, doc) for sign, doc in own.items() if sign not in ("", "z") and not re.search(r"[(/]", sign)]
     return [*content.words.symbols, *plain]
+
+
+def _meaning(key: Key) -> str:
+    """What a key is, with its name where the description goes on from it."""
+    goes_on = key.doc.split(" ")[0] in FRAGMENTS
+    return f"{key.leaf.replace('_', ' ')} {key.doc}" if goes_on else key.doc
 
 
 def _present(*drawings: Drawing | None) -> tuple[Drawing, ...]:
