@@ -77,7 +77,7 @@ def simulate_step(
 
     step : of the plant (s), a whole share of the control period; that period itself where it is not given. Raises
     DesignError where it is no such share, for a force that the screw cannot hold, a duration that is not above zero,
-    and where the control does not hold the rotor.
+    where the control does not hold the rotor, and where the screw slips.
     """
     check_reference(controller, reference)
     period = controller.period
@@ -112,6 +112,7 @@ def _run(stand: Stand, controller: ForceController, reference: float, count: int
     force_of, distortion = stepped(stand.spring), stand.distortion
     straight = distortion is undistorted
     rub = rubbing_of(stand.guides)
+    slip = math.pi * h
     control = _controlling(stand, controller, reference)
     torque_constant = controller.observer.torque_constant
     angle = speed = position = velocity = 0.0
@@ -124,6 +125,11 @@ def _run(stand: Stand, controller: ForceController, reference: float, count: int
             raise DesignError(
                 f"The control does not hold the rotor at a period of {format_quantity(period, 'time')}: it turns by "
                 f"more than {FARTHEST:g} rad within {format_quantity(period * sample, 'time', 4)}."
+            )
+        if not -slip <= h * angle - position <= slip:
+            raise DesignError(
+                f"The screw slips: after {format_quantity(period * sample, 'time', 4)} rotor and mover are further "
+                f"apart than half of the pitch, {format_quantity(slip, 'length', 4)}."
             )
         current = control(angle, position)
         record[sample] = angle, position, velocity, spring, current

@@ -51,6 +51,15 @@ def test_a_stretch_is_what_the_differential_equation_gives(model: BoucWen) -> No
             assert advance(model, start, moved) == pytest.approx(float(solved.y[0, -1]), abs=1e-9 * model.bound)
 
 
+@pytest.mark.parametrize("model", MODELS)
+def test_a_stretch_is_the_same_in_many_short_ones(model: BoucWen) -> None:
+    """Short ones of other exponents take another rule than long ones: to and fro through zero and near the bound."""
+    for start, moved in ((-0.9 * model.bound, 4e-4), (0.8 * model.bound, -4e-4), (0.0, 1e-4)):
+        whole = advance(model, start, moved)
+        record = np.linspace(0.0, moved, 2001)
+        assert states(model, record, start)[-1] == pytest.approx(whole, abs=1e-8 * model.bound)
+
+
 def test_the_state_comes_to_its_bound_and_no_further() -> None:
     """A quarter of a millimetre for Table II; a rule that overshoots, or a bound of psi alone, would show."""
     assert TABLE_II.bound == pytest.approx(0.25e-3, rel=1e-12)
