@@ -143,7 +143,8 @@ def variations(result: BenchmarkResult, wanted: Sequence[Published] | None = Non
     scales = {item.path: _scale(item, [item.of(figures) for figures in everyone]) for item in shown}
 
     def row(label: str, figures: Mapping[str, Any], tone: str) -> tuple[Cell, ...]:
-        return (Cell(capital(label)), *(Cell(scales[item.path].number(item.of(figures)), tone) for item in shown))
+        named = capital(label).replace(" %", "\u00a0%")
+        return (Cell(named), *(Cell(scales[item.path].number(item.of(figures)), tone) for item in shown))
 
     rows = [row("as it is", first.figures, "strong")]
     for run in result.variations:

@@ -24,9 +24,6 @@ HOW = (
     "tenth more or less of some parameters does: both tables then stand here."
 )
 
-VARIED = ("estimation_rmse", "step_error_share", "step_t63_by_pole")
-"""Figures that the table of other conditions shows: all of them would be too wide a table to read."""
-
 LINEAR, POLYNOMIAL, PROPOSED = runs.ESTIMATES
 
 
@@ -36,10 +33,10 @@ def section(result: BenchmarkResult) -> dict[str, Any]:
     first, parameters = run.simulations[0], benchmark_parameters(run)
     sound = [item for item in result.runs if item.ok]
     errors = [item for item in benchmark.published if item.path[0] == "estimation_rmse" and item.path[-1] == PROPOSED]
-    varied = [item for item in benchmark.published if item.path[0] in VARIED]
+    third = [item for item in benchmark.published if item.path[:2] == ("estimation_rmse", "3") and item not in errors]
+    ends = [item for item in benchmark.published if item.path[0] == "step_error_share"]
     static = runs.of_run(first, "loop")
     return {
-        "source": benchmark.source,
         "sentences": sentences(run, parameters),
         "statistics": shared.statistics(result),
         "calibrated": calibrated(run, benchmark),
@@ -62,7 +59,7 @@ def section(result: BenchmarkResult) -> dict[str, Any]:
         "missed": shared.missed(result),
         "limits": benchmark.limits,
         "comparison": shared.comparison(sound, errors, benchmark.causes) if len(sound) > 1 else None,
-        "variations": shared.variations(result, varied) if result.variations else None,
+        "variations": shared.variations(result, [*errors, *third, *ends]) if result.variations else None,
         "failed": tuple(f"{item.label}: {' '.join(item.reasons)}" for item in result.runs if not item.ok),
         "how": "" if result.against or result.variations else HOW,
     }

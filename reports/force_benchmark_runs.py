@@ -117,10 +117,10 @@ def steps(simulation: Simulation, poles: Mapping[str, float]) -> Drawing | None:
             pole = poles.get(f"{reference:g}")
             if pole is not None:
                 rise = reference * (1 - np.exp(pole * time))
-                left.plot(time, rise, color=colour, lw=1.0, ls=(0, (1, 2)))
+                left.plot(time, rise, color=colour, lw=1.6, ls=(0, (1, 1.6)))
             _mark_t63(left, trial, force, colour)
         left.plot([], [], color=INK, lw=0.8, ls=(0, (4, 3)), label="reference")
-        left.plot([], [], color=MUTED, lw=1.0, ls=(0, (1, 2)), label="1 − exp(pole · time)")
+        left.plot([], [], color=MUTED, lw=1.6, ls=(0, (1, 1.6)), label="1 − exp(pole · time)")
         left.set_ylabel("load force (N)")
         right.axhline(0.0, color=INK, lw=0.8)
         right.set_ylabel("load less reference (N)")
