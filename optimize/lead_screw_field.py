@@ -64,12 +64,14 @@ class LeadScrewField:
 
     samples : at `displacements` of the pitch, in that order. slipping : at half a pitch. top : at the peak
     if that is none of the samples, as of narrow magnets beside a narrow gap or of iron that saturates; None otherwise.
+    beside : on either side of where the series has its peak, wherever there is a top.
     """
 
     screw: LeadScrew
     samples: list[HelicalSolution]
     slipping: HelicalSolution | None = None
     top: HelicalSolution | None = None
+    beside: tuple[HelicalSolution, ...] = ()
 
     @property
     def solved(self) -> Iterator[HelicalSolution]:
@@ -162,21 +164,25 @@ def solve_field(spec: Spec, screw: LeadScrew) -> LeadScrewField:
 
 
 def _topped(spec: Spec, field: LeadScrewField, share: float) -> LeadScrewField:
-    """With the field at the peak, which the series puts at a share of the pitch.
-
-    The series may miss it by half a per cent of the pitch. One step of Newton's goes on from there, with the slope of
-    two fields side by side and the series' curvature.
-    """
+    """With the field at the peak, which the series puts at a share of the pitch and may miss by half a per cent of it;
+    two fields side by side there tell how far to go on."""
     from fluxbore.fem.helical_force import force
 
-    near, pitch = field.samples[0], field.screw.pitch
+    near = field.samples[0]
     pair = _solve(spec, field.screw, (share - REST / 2, share + REST / 2), near)
     if not pair[-1].convergence.converged:
         return replace(field, top=pair[-1])
     below, above = (force(item) * periods(field.screw) for item in pair)
-    curvature = field.series.curvature(share * pitch) * pitch**2
+    top = _solve(spec, field.screw, (peak_share(field.series, share, below, above),), near)[0]
+    return replace(field, top=top, beside=tuple(pair))
+
+
+def peak_share(series: ForceSeries, share: float, below: float, above: float) -> float:
+    """Where the largest force is, of the pitch, by one step of Newton's from the share where the series has its peak:
+    with its curvature, and the slope between the forces (N) half of `REST` below and above."""
+    curvature = series.curvature(share * series.pitch) * series.pitch**2
     step = -(above - below) / REST / curvature if curvature < 0 else 0.0
-    return replace(field, top=_solve(spec, field.screw, (share + max(-FARTHEST, min(FARTHEST, step)),), near)[0])
+    return share + max(-FARTHEST, min(FARTHEST, step))
 
 
 def field_figures(spec: Spec, field: LeadScrewField) -> dict[str, float | None]:

@@ -16,11 +16,12 @@ from fluxbore.design.performance import Performance
 from fluxbore.design.spec import Spec
 from fluxbore.optimize.evaluation import Gradient
 from fluxbore.optimize.lead_screw_common import complete
-from fluxbore.optimize.lead_screw_field import LeadScrewField, magnetised
-from fluxbore.optimize.lead_screw_rates import Jacobian, rates
+from fluxbore.optimize.lead_screw_field import LeadScrewField, magnetised, peak_share, periods
+from fluxbore.optimize.lead_screw_rates import Jacobian, Rates, rates
 from fluxbore.optimize.partials import closed_gradient, differentiable, held
 
 if TYPE_CHECKING:
+    from fluxbore.design.force_series import ForceSeries
     from fluxbore.design.lead_screw import LeadScrew
 
 STEPWISE = ("demagnetised_fraction",)
@@ -38,9 +39,7 @@ def gradient(spec: Spec, field: LeadScrewField, performance: Performance, keys: 
     jacobian = Jacobian(base, field, wanted)
     if not jacobian.keys:
         return {}
-    found, series, stall = rates(base, field, jacobian), field.series, performance.stall_force
-    assert stall is not None
-    share = series.peak[0] / series.pitch
+    found, series = rates(base, field, jacobian), field.series
     unit = _along_iron(field.screw, dict.fromkeys(found.passed, 1.0))
     figures = {name: getattr(performance, name) for name in unit}
 
@@ -48,8 +47,6 @@ def gradient(spec: Spec, field: LeadScrewField, performance: Performance, keys: 
         place, screw = jacobian.keys.index(key), magnetised(moved)
         amplitude = series.amplitude + step * found.amplitude[:, place]
         changed = replace(series, amplitude=amplitude, pitch=screw.pitch)
-        # The peak moves with the series', and the force there is all but level.
-        shift = 0.0 if field.top is None else changed.peak[0] - share * screw.pitch
         passed = {
             member: figures[_name(member)] / unit[_name(member)] + step * by_keys[place]
             for member, by_keys in found.passed.items()
@@ -57,9 +54,28 @@ def gradient(spec: Spec, field: LeadScrewField, performance: Performance, keys: 
         others: dict[str, float | None] = dict(_along_iron(screw, passed))
         if found.load is not None and performance.demagnetisation_load is not None:
             others["demagnetisation_load"] = performance.demagnetisation_load + step * found.load[place]
-        return complete(moved, screw, changed, stall + step * found.stall[place] + found.stiffness * shift, others)
+        return complete(moved, screw, changed, _stall(field, changed, found, place, step), others)
 
     return closed_gradient(base, jacobian.keys, completed, without=STEPWISE)
+
+
+def _stall(field: LeadScrewField, changed: ForceSeries, found: Rates, key: int, step: float) -> float:
+    """The largest force (N) after a step of a key, with the series that it changes: at the peak's own new place."""
+    from fluxbore.fem.helical_force import force
+
+    before, pitch = field.series.peak[0] / field.series.pitch, field.screw.pitch
+    after = changed.peak[0] / changed.pitch
+    top, *beside = (
+        force(state) * periods(field.screw) + step * by_keys[key]
+        for state, by_keys in zip((field.stall, *field.beside), found.stall, strict=True)
+    )
+    if not beside:
+        return float(top)
+    below, above = (
+        value + slope * (after - before) * pitch for value, slope in zip(beside, found.stiffness[1:], strict=True)
+    )
+    shift = peak_share(changed, after, below, above) - field.stall.section.displacement / pitch
+    return float(top + found.stiffness[0] * shift * pitch)
 
 
 def _along_iron(screw: LeadScrew, passed: dict[str, float]) -> dict[str, float]:

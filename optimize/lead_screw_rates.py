@@ -34,15 +34,15 @@ Floats = Any
 class Rates:
     """Of the whole active length, by the keys in their order.
 
-    amplitude : (H, keys) of the series' amplitudes (N). stall : (keys,) of the force (N) where it is largest.
-    stiffness : N/m, of that force by the displacement alone: next to nothing. passed : member -> (keys,) of the largest
-    flux per angle (Wb/rad) along its iron. load : (keys,) of the magnets' load, where it is computed.
+    amplitude : (H, keys) of the series' amplitudes (N). stall : (states, keys) of the force (N) in the field's states
+    `stall` and `beside`. stiffness : (states,) N/m, of the same by the displacement alone. passed : member -> (keys,)
+    of the largest flux per angle (Wb/rad) along its iron. load : (keys,) of the magnets' load, where it is computed.
     """
 
     keys: tuple[str, ...]
     amplitude: Floats
     stall: Floats
-    stiffness: float
+    stiffness: Floats
     passed: Mapping[str, Floats]
     load: Floats | None
 
@@ -102,12 +102,13 @@ def rates(spec: Spec, field: LeadScrewField, jacobian: Jacobian) -> Rates:
     adjoints = [HelicalAdjoint(state) for state in field.samples]
     forces = [adjoint.force() for adjoint in adjoints]
     by_keys = [jacobian.along(by, state) for by, state in zip(forces, field.samples, strict=True)]
-    top = forces[0] if field.top is None else HelicalAdjoint(field.top).force()
+    top = [forces[0]] if field.top is None else [HelicalAdjoint(item).force() for item in (field.top, *field.beside)]
     return Rates(
         jacobian.keys,
         length * interpolation() @ np.array(by_keys),
-        length * jacobian.along(top, field.stall),
-        length * jacobian.by_displacement(top),
+        length
+        * np.array([jacobian.along(by, state) for by, state in zip(top, (field.stall, *field.beside), strict=True)]),
+        length * np.array([jacobian.by_displacement(by) for by in top]),
         _passed(adjoints[-1], jacobian),
         _load(spec, field, jacobian),
     )
