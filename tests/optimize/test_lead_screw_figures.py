@@ -151,26 +151,6 @@ def test_the_masses_of_the_parts() -> None:
     assert sum(row.mass for row in rows if "magnet" in row.part.role) == pytest.approx(found.magnet_mass, rel=1e-9)
 
 
-def test_saturated_iron_bends_the_force() -> None:
-    """Iron of 0.5 mm behind a pitch of 10 mm: the series, even sine and all, against fields at other displacements.
-
-    Catches a mirror about the quarter of the pitch, which saturation breaks by 3 %, and a peak that is taken there.
-    """
-    spec = rotlin({**dict.fromkeys(BARE, 0.5e-3), "actuator.pitch": 10e-3, "actuator.translator.thickness": 10e-3})
-    screw = magnetised(spec)
-    field = solve_field(spec, screw)
-    before, after, behind = (
-        force(solve(section(spec, screw, share * screw.pitch))) * periods(screw) for share in (0.16, 0.34, -0.16)
-    )
-    assert after > 1.02 * before
-    assert behind == pytest.approx(-before, rel=1e-6)
-    assert field.series.force(0.16 * screw.pitch) == pytest.approx(before, rel=1e-3)
-    assert field.series.force(0.34 * screw.pitch) == pytest.approx(after, rel=1e-3)
-    assert field.top is not None
-    assert field.stall.section.displacement > 0.25 * screw.pitch
-    assert force(field.stall) > force(field.samples[0])
-
-
 def test_the_series_holds_between_the_samples(narrow: LeadScrewField) -> None:
     """Catches too few displacements, or a slope that does not belong to them."""
     assert narrow.top is not None
