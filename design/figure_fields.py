@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import field
 
-FORCE, SPRING, FIELD, WINDING, DRIVE, HEAT, PRESSURE, SEAL, SIZE = GROUPS = (
+FORCE, SPRING, FIELD, WINDING, DRIVE, HEAT, PRESSURE, SEAL, HYDRAULIC, TRACKING, SIZE = GROUPS = (
     "Force",
     "Magnetic spring",
     "Magnetic field",
@@ -13,6 +13,8 @@ FORCE, SPRING, FIELD, WINDING, DRIVE, HEAT, PRESSURE, SEAL, SIZE = GROUPS = (
     "Losses and heat",
     "Air cylinder and rod",
     "Seal",
+    "Hydraulics",
+    "Force tracking",
     "Size and mass",
 )
 """Headings under which tables for people put the figures, in this order."""

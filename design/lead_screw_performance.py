@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from fluxbore.design.figure_fields import DRIVE, FIELD, FORCE, SIZE, SPRING, figure
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True)
 class LeadScrewFigures:
     """SI units; None where a route or a kind of actuator has no such figure."""
 

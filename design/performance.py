@@ -10,12 +10,13 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, fields
 
 from fluxbore.design.figure_fields import DRIVE, FIELD, FORCE, GROUPS, HEAT, PRESSURE, SEAL, SIZE, WINDING, figure
+from fluxbore.design.hydrostatic_performance import HydrostaticFigures
 from fluxbore.design.lead_screw_performance import LeadScrewFigures
 from fluxbore.design.units import DIMENSIONS, format_quantity
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Performance(LeadScrewFigures):
+class Performance(LeadScrewFigures, HydrostaticFigures):
     """Figures of one design, SI units; the unit and meaning of each stand in `FIGURES`."""
 
     force_constant: float | None = figure(
@@ -297,7 +298,7 @@ HEAVY = 10.0
 
 _PLAIN = {"count": "1", "fraction": "1", "power": "W"}
 
-_INHERITED = len(fields(LeadScrewFigures))
+_OF_KINDS = (*fields(LeadScrewFigures), *fields(HydrostaticFigures))
 
 FIGURES: dict[str, Figure] = {
     item.name: Figure(
@@ -308,7 +309,7 @@ FIGURES: dict[str, Figure] = {
         item.metadata["signed"],
         item.metadata["group"],
     )
-    for item in (*fields(Performance)[_INHERITED:], *fields(LeadScrewFigures))
+    for item in (*fields(Performance)[len(_OF_KINDS) :], *_OF_KINDS)
 }
 """Every figure by name, in the order of the results table."""
 

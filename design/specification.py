@@ -14,6 +14,8 @@ from fluxbore.design import (
     coils_values,
     hybrid_keys,
     hybrid_values,
+    hydrostatic_keys,
+    hydrostatic_values,
     lead_screw_keys,
     lead_screw_values,
 )
@@ -84,6 +86,15 @@ KINDS: dict[str, Kind] = {
         lead_screw_keys.LEAD_SCREW_MATERIALS,
         lead_screw_keys.LEAD_SCREW_NON_MAGNETIC,
         lead_screw_values.check,
+    ),
+    "hydrostatic": Kind(
+        "hydrostatic",
+        hydrostatic_keys.HYDROSTATIC_KEYS,
+        hydrostatic_keys.HYDROSTATIC_ALTERNATIVES,
+        hydrostatic_values.resolve,
+        hydrostatic_values.from_values,
+        hydrostatic_keys.HYDROSTATIC_MATERIALS,
+        check=hydrostatic_values.check,
     ),
 }
 """Every kind of actuator a specification can describe."""

@@ -137,12 +137,20 @@ DIMENSIONS: dict[str, Dimension] = {
         Dimension("torque constant", "N m/A", "N m/A", {"N m/A": Unit(1.0), "mN m/A": Unit(1e-3)}),
         Dimension("acceleration", "m/s^2", "m/s^2", {"m/s^2": Unit(1.0), "mm/s^2": Unit(1e-3)}),
         Dimension("rotational inertia", "kg m^2", "kg m^2", {"kg m^2": Unit(1.0), "g cm^2": Unit(1e-7)}),
-        Dimension("angular frequency", "rad/s", "rad/s", {"rad/s": Unit(1.0)}),
+        Dimension("angular frequency", "rad/s", "rad/s", {"rad/s": Unit(1.0), "rpm": Unit(math.tau / 60.0)}),
         Dimension("rate", "1/s", "1/s", {"1/s": Unit(1.0)}),
         Dimension("wave number", "1/m", "1/m", {"1/m": Unit(1.0), "1/mm": Unit(1e3)}),
         Dimension("transfer ratio", "rad/m", "rad/mm", {"rad/mm": Unit(1e3), "rad/m": Unit(1.0)}),
         Dimension("inverse speed", "s/m", "s/m", {"s/m": Unit(1.0)}),
         Dimension("speed gain", "A s/rad", "A s/rad", {"A s/rad": Unit(1.0)}),
+        Dimension("shaft power", "W", "W", _scaled(W=1.0, mW=1e-3, kW=1e3)),
+        Dimension("dynamic viscosity", "Pa s", "mPa s", {"mPa s": Unit(1e-3), "Pa s": Unit(1.0)}),
+        Dimension("force per pressure", "N/Pa", "N/MPa", {"N/MPa": Unit(1e-6), "N/bar": Unit(1e-5), "N/Pa": Unit(1.0)}),
+        Dimension("force gain", "m/(N s)", "mm/(N s)", {"mm/(N s)": Unit(1e-3), "m/(N s)": Unit(1.0)}),
+        Dimension("force rate", "N/s", "N/s", {"N/s": Unit(1.0), "kN/s": Unit(1e3)}),
+        Dimension("specific force", "N/kg", "N/kg", {"N/kg": Unit(1.0), "kN/kg": Unit(1e3)}),
+        Dimension("linear mass", "kg/m", "g/m", {"g/m": Unit(1e-3), "kg/m": Unit(1.0)}),
+        Dimension("heat capacity", "J/(kg K)", "J/(kg K)", {"J/(kg K)": Unit(1.0), "kJ/(kg K)": Unit(1e3)}),
     )
 }
 """Every dimension a specification can hold, by name; their unit tables are all the units there are."""

@@ -7,7 +7,14 @@ from dataclasses import dataclass
 
 from fluxbore.design.errors import DesignError, MaterialError, SpecError
 from fluxbore.design.spec import Spec
-from fluxbore.optimize import coils_figures, hybrid_figures, hybrid_gaps, lead_screw_figures, lead_screw_gaps
+from fluxbore.optimize import (
+    coils_figures,
+    hybrid_figures,
+    hybrid_gaps,
+    hydrostatic_figures,
+    lead_screw_figures,
+    lead_screw_gaps,
+)
 from fluxbore.optimize.evaluation import FAILED, INVALID, Evaluation, Fidelity, failure
 
 
@@ -28,6 +35,7 @@ class Model:
 MODELS: dict[str, Model] = {
     "coils": Model(coils_figures.by_network, coils_figures.by_fem, gradients=True),
     "hybrid": Model(hybrid_figures.by_network, hybrid_figures.by_fem, gradients=True, never=hybrid_gaps.never),
+    "hydrostatic": Model(hydrostatic_figures.by_network, hydrostatic_figures.by_fem),
     "lead-screw": Model(
         lead_screw_figures.by_network, lead_screw_figures.by_fem, gradients=True, never=lead_screw_gaps.never
     ),

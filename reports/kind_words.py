@@ -156,3 +156,24 @@ LEAD_SCREW = KindWords(
         "The motor that turns the rotor: its torque constant and inertia are the specification’s.",
     ),
 )
+
+HYDROSTATIC = KindWords(
+    route="simulation in time",
+    route_short="simulated",
+    network="the closed forms",
+    moves=False,
+    has_field=False,
+    headlines=(
+        "force_frequency_limit",
+        "tracking_error",
+        "peak_pressure",
+        "force_efficiency",
+        "distal_mass",
+        "specific_force_distal",
+    ),
+    symbols=(
+        ("F_ref", "reference of the output force"),
+        ("p", "pressure above the atmosphere's"),
+        ("k", "stiffness of the return element"),
+    ),
+)

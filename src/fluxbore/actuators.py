@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from fluxbore import hybrid_views, lead_screw_views
+from fluxbore import hybrid_views, hydrostatic_views, lead_screw_views
 from fluxbore.design.spec import Spec
 from fluxbore.fem import femm_coils
 from fluxbore.geometry import coils
@@ -54,6 +54,7 @@ ACTUATORS: dict[str, Actuator] = {
         hybrid_views.femm_model,
         {MCFC.name: MCFC},
     ),
+    "hydrostatic": Actuator(hydrostatic_views.assembly, kind_words.HYDROSTATIC),
     "lead-screw": Actuator(
         lead_screw_views.assembly,
         kind_words.LEAD_SCREW,

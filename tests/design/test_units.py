@@ -60,12 +60,20 @@ INDEPENDENT = {
     "torque constant": {"N m/A": 1.0, "mN m/A": 1e-3},
     "acceleration": {"m/s^2": 1.0, "mm/s^2": 1e-3},
     "rotational inertia": {"kg m^2": 1.0, "g cm^2": 1e-7},
-    "angular frequency": {"rad/s": 1.0},
+    "angular frequency": {"rad/s": 1.0, "rpm": 0.10471975511965977},
     "rate": {"1/s": 1.0},
     "wave number": {"1/m": 1.0, "1/mm": 1e3},
     "transfer ratio": {"rad/m": 1.0, "rad/mm": 1e3},
     "inverse speed": {"s/m": 1.0},
     "speed gain": {"A s/rad": 1.0},
+    "shaft power": {"W": 1.0, "mW": 1e-3, "kW": 1e3},
+    "dynamic viscosity": {"mPa s": 1e-3, "Pa s": 1.0},
+    "force per pressure": {"N/MPa": 1e-6, "N/bar": 1e-5, "N/Pa": 1.0},
+    "force gain": {"mm/(N s)": 1e-3, "m/(N s)": 1.0},
+    "force rate": {"N/s": 1.0, "kN/s": 1e3},
+    "specific force": {"N/kg": 1.0, "kN/kg": 1e3},
+    "linear mass": {"g/m": 1e-3, "kg/m": 1.0},
+    "heat capacity": {"J/(kg K)": 1.0, "kJ/(kg K)": 1e3},
 }
 """SI value of one unit, for every dimension without an offset."""
 
