@@ -141,8 +141,10 @@ def test_the_contradiction_is_told_from_the_parameters():
     gap = 220e3 * h * math.asin(165 / 192) - 165
     assert f"{gap:.1f} N above the sine" in text
     assert "errs by 15.1 N" in text
-    assert "The paper prints 7.23 N" in text
+    assert "The paper prints 7.23 N, which this K_s, F_stall and peak do not allow together" in text
     assert "a peak of 147.5 N gives 7.9 N" in text
+    near = run(figures={**FIGURES, "estimation_rmse": {**RMSE, "3": {**RMSE["3"], "linear": 7.9}}})
+    assert "peak allow; a peak" in force_benchmark.contradiction(near, PARAMETERS, FORCE)
     alone = dataclasses.replace(FORCE, published=())
     assert "The paper" not in force_benchmark.contradiction(ALONE.run, PARAMETERS, alone)
 
