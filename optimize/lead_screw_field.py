@@ -44,8 +44,12 @@ ORDERS = (*range(1, 2 * QUARTERS + 2, 2), 2)
 CENTRED = 1e-4
 """Of the pitch: a peak this near to the quarter is taken there, which loses 2e-7 of the force at most."""
 
-REST = 1e-3
-"""Of the pitch: near enough to rest that the force over it is the slope to 1e-5, and far enough for its digits."""
+REST = 1 / 128
+"""Of the pitch: near enough to rest that the flux along the iron is its largest to 3e-4, and so far that what unlike
+meshes of the members pull by themselves, a hundred-thousandth of the largest force, leaves the slope right to 5e-4."""
+
+BESIDE = 5e-4
+"""Of the pitch, to either side of the series' peak: where narrow magnets bend the force, slopes are of near places."""
 
 FARTHEST = 0.02
 """Of the pitch: by how much more than this the series does not miss its peak."""
@@ -169,7 +173,7 @@ def _topped(spec: Spec, field: LeadScrewField, share: float) -> LeadScrewField:
     from fluxbore.fem.helical_force import force
 
     near = field.samples[0]
-    pair = _solve(spec, field.screw, (share - REST / 2, share + REST / 2), near)
+    pair = _solve(spec, field.screw, (share - BESIDE, share + BESIDE), near)
     if not pair[-1].convergence.converged:
         return replace(field, top=pair[-1])
     below, above = (force(item) * periods(field.screw) for item in pair)
@@ -179,9 +183,9 @@ def _topped(spec: Spec, field: LeadScrewField, share: float) -> LeadScrewField:
 
 def peak_share(series: ForceSeries, share: float, below: float, above: float) -> float:
     """Where the largest force is, of the pitch, by one step of Newton's from the share where the series has its peak:
-    with its curvature, and the slope between the forces (N) half of `REST` below and above."""
+    with its curvature, and the slope between the forces (N) `BESIDE` below and above."""
     curvature = series.curvature(share * series.pitch) * series.pitch**2
-    step = -(above - below) / REST / curvature if curvature < 0 else 0.0
+    step = -(above - below) / (2 * BESIDE) / curvature if curvature < 0 else 0.0
     return share + max(-FARTHEST, min(FARTHEST, step))
 
 
