@@ -29,8 +29,9 @@ from fluxbore.reports import (
     tolerances,
 )
 from fluxbore.reports.content import ReportContent
+from fluxbore.reports.key_labels import FRAGMENTS
 from fluxbore.reports.svg import Drawing
-from fluxbore.reports.wording import FRAGMENTS, capital, duration, greek, key_label, symbol
+from fluxbore.reports.wording import capital, duration, greek, key_label, symbol
 
 if TYPE_CHECKING:
     from markupsafe import Markup

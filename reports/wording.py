@@ -12,6 +12,7 @@ from fluxbore.design.rates import Measure, measure_of_figure, measure_of_key
 from fluxbore.design.spec import Spec
 from fluxbore.design.units import DIMENSIONS
 from fluxbore.optimize.outcome import Limit
+from fluxbore.reports.key_labels import FRAGMENTS, KEY_LABELS
 
 DASH = "–"
 """Stands where a figure is not given."""
@@ -28,11 +29,6 @@ SMALL_INERTIA = 1e-2
 SMALL_SHARE = 1e-3
 """Below which per cent have three digits rather than two decimals."""
 
-FRAGMENTS = frozenset(
-    ("of", "between", "against", "along", "by", "whatever", "around", "within", "outside", "at", "that")
-)
-"""Words with which a key's description only goes on from its name, so that its name is the label."""
-
 _UNIT_SIGNS = {
     "N/sqrt(W)": "N/√W",
     "ohm": "Ω",
@@ -42,7 +38,19 @@ _UNIT_SIGNS = {
 }
 """Units that the page writes another way; `_sign` knows powers and micrometres in all others."""
 
-_GREEK = {"tau": "τ", "mu": "µ", "lambda": "λ", "Delta": "Δ", "pi": "π"}
+_GREEK = {
+    "tau": "τ",
+    "mu": "µ",
+    "lambda": "λ",
+    "Delta": "Δ",
+    "pi": "π",
+    "phi": "φ",
+    "psi": "ψ",
+    "xi": "ξ",
+    "eta": "η",
+    "gamma": "γ",
+    "sigma": "σ",
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -210,13 +218,8 @@ def key_label(spec: Spec, name: str) -> str:
     Descriptions that run on are cut at the first comma, colon or semicolon; those that go on from the key's name give
     way to it. Keys of several sections that share a label have the section behind it.
     """
-    own = {
-        "actuator.mover.ring_width": "ring width",
-        "actuator.winding.turns_density": "turns density",
-        "actuator.winding.yoke_clearance": "clearance of winding and yoke",
-    }
-    if name in own:
-        return own[name]
+    if name in KEY_LABELS:
+        return KEY_LABELS[name]
     key = spec.kind.key(name)
     if key is None:
         return name.rpartition(".")[2].replace("_", " ")

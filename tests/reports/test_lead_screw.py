@@ -182,7 +182,7 @@ def test_energy_balance_shows_a_fault(screw: ScrewContent) -> None:
         ("actuator.pitch", "pitch"),
         ("actuator.translator.length", "length (translator)"),
         ("actuator.carried_mass", "carried mass"),
-        ("actuator.gap", "radial air gap between the members' magnets"),
+        ("actuator.rotor.iron_thickness", "thickness of the iron (rotor)"),
         ("actuator.rotor.magnet", "magnet grade (rotor)"),
     ],
 )
