@@ -45,7 +45,7 @@ def test_the_template_is_the_example():
 
 @pytest.mark.parametrize("name", ["", "nope", "../ipehla", "ipehla.toml"])
 def test_there_is_no_other_template(name):
-    with pytest.raises(SpecError, match=r"^There is a template for ipehla, team22; got "):
+    with pytest.raises(SpecError, match=r"^There is a template for ipehla, rotlin, team22; got "):
         template(name)
 
 
