@@ -37,7 +37,7 @@ def again(spec: Spec) -> Spec:
 
 def test_the_template_is_the_example():
     """Catches an example that is mended and a template that is not; an installed wheel has the template alone."""
-    assert template_names() == ("ipehla", "team22")
+    assert template_names() == ("ipehla", "rotlin", "team22")
     for name in template_names():
         assert template(name) == (EXAMPLES / f"{name}.toml").read_text(encoding="utf-8")
         assert template(name).isascii()  # whatever encoding the terminal redirects in
