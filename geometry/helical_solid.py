@@ -11,13 +11,12 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from fluxbore.design.errors import DesignError
+from fluxbore.design.units import format_quantity
 from fluxbore.geometry import unrolled
 from fluxbore.geometry.helical_part import HelicalPart
 
 if TYPE_CHECKING:
     import cadquery
-
-    from fluxbore.geometry.unrolled import Outline
 
 MILLIMETRE = 1e-3
 
@@ -26,6 +25,9 @@ WIDEST = 2 * math.pi / 3
 
 CURVE = 1e-7
 """mm, from a helix to the polynomial that the kernel keeps of it."""
+
+THINNEST = 1e-6
+"""m. Nobody makes a thinner magnet, and the kernel, which calls points 1e-10 m apart the same, is far from trouble."""
 
 SEAM = 1e-6
 """mm. Edges of neighbouring faces that are no farther apart are one."""
@@ -43,7 +45,7 @@ class _Cell(NamedTuple):
 def helical_solid(part: HelicalPart) -> cadquery.Solid:
     """One closed solid, in mm; its validity and volume are the caller's to look at.
 
-    Raises DesignError where the kernel leaves the faces apart.
+    Raises DesignError where the part is too thin for the kernel, which would crash, and where it leaves faces apart.
     """
     import cadquery
     from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeSolid, BRepBuilderAPI_Sewing
@@ -51,6 +53,7 @@ def helical_solid(part: HelicalPart) -> cadquery.Solid:
     from OCP.TopAbs import TopAbs_ShapeEnum
     from OCP.TopoDS import TopoDS
 
+    _check(part)
     sewing = BRepBuilderAPI_Sewing(SEAM)
     for face in _faces(part):
         sewing.Add(face)
@@ -63,9 +66,26 @@ def helical_solid(part: HelicalPart) -> cadquery.Solid:
     return cadquery.Solid(body)
 
 
-def _cells(outline: Outline) -> list[_Cell]:
-    lower, upper = unrolled.chains(outline)
-    corners = sorted({theta for theta, _ in (*lower, *upper)})
+def _check(part: HelicalPart) -> None:
+    sizes = (part.outer_radius - part.inner_radius, part.width, part.angle * part.inner_radius)
+    for size, what in zip(sizes, ("radially", "along the axis", "around it"), strict=True):
+        if size < THINNEST:
+            raise DesignError(
+                f"The {part.name} must be at least {format_quantity(THINNEST, 'length')} {what} for the CAD kernel; "
+                f"got {format_quantity(size, 'length', 6)}."
+            )
+
+
+def _cells(part: HelicalPart) -> list[_Cell]:
+    lower, upper = unrolled.chains(part.outline)
+    first, *between, last = sorted({theta for theta, _ in (*lower, *upper)})
+    apart = SEAM * MILLIMETRE / part.inner_radius
+    corners = [first]
+    for theta in between:
+        # Two corners above one another may differ by a rounding, and the kernel crashes on a face without width.
+        if theta - corners[-1] > apart and last - theta > apart:
+            corners.append(theta)
+    corners.append(last)
     angles = []
     for a, b in pairwise(corners):
         pieces = math.ceil((b - a) / WIDEST)
@@ -79,7 +99,7 @@ def _faces(part: HelicalPart) -> list[Any]:
     from OCP.BRepFill import BRepFill
 
     radii = (part.inner_radius / MILLIMETRE, part.outer_radius / MILLIMETRE)
-    cells = _cells(part.outline)
+    cells = _cells(part)
     found = []
     for cell in cells:
         curved = [_curved(cell, radius) for radius in radii]

@@ -349,3 +349,18 @@ def test_the_pages_command_writes_what_the_page_says(
         assert overhang in " ".join(page.split())
         beyond = max(z for part in rotor for _, z in part.outline) - PITCH
         assert f"{beyond * 1e3:.2f} mm" == " ".join(overhang.split()[:2])
+
+
+@needs_gl
+def test_corners_that_rounding_parts_and_thin_magnets_do_not_crash_the_kernel(specs: dict[str, Spec]) -> None:
+    """Found at random: a rotor of one pole, whose band has two corners a rounding apart, ended the process."""
+    actuator = specs["continuous"].actuator
+    pitch = 6.147598996695839 * MM
+    touching = dataclasses.replace(actuator.shape.rotor, magnet_width=pitch / 2, magnet_thickness=2 * MM)
+    shape = dataclasses.replace(actuator.shape, pitch=pitch, poles=1, rotor=touching, translator=touching)
+    whole = lead_screw_parts.assembly(dataclasses.replace(actuator, shape=shape), 3.2849 * MM)
+    for part in magnets(whole, "rotor", "N") + magnets(whole, "rotor", "S"):
+        assert solids.solid(part).isValid()
+    thin = dataclasses.replace(part, outer_radius=part.inner_radius + 1e-8)
+    with pytest.raises(DesignError, match=r"at least 0\.001 mm radially for the CAD kernel; got 1e-05 mm\.$"):
+        solids.solid(thin)
