@@ -19,10 +19,17 @@ from fluxbore.simulation_messages import simulation_plain, simulation_text
 TOP = Path(__file__).parent.parent
 EXAMPLE = TOP / "examples" / "rotlin.toml"
 TABLES = (TOP / "docs" / "validation" / "force_estimation.md").read_text(encoding="utf-8")
+PAGE = (TOP / "docs" / "force_benchmark.md").read_text(encoding="utf-8")
 POLYNOMIAL = {"1": 4.68, "2": 4.65, "3": 4.14}
 """N, Table III."""
 MOST = {"1": 0.25, "2": 0.30, "3": 0.45}
 """Of the proposed estimate's error over the polynomial's; the paper has 0.19, 0.21 and 0.39."""
+
+
+def cell(name):
+    """The numbers that the page's table has as simulated in the row of this name."""
+    row = next(line for line in PAGE.splitlines() if line.startswith(f"| {name} |"))
+    return [float(value) for value in re.findall(r"[\d.]+", row.split("|")[2])]
 
 
 @pytest.fixture(scope="module")
@@ -123,6 +130,30 @@ def test_the_validation_page_has_these_numbers(figures):
         computed = [figures["estimation_rmse"][number][name] for name in ("linear", "polynomial", "proposed")]
         assert told[:2] == pytest.approx(computed[:2], rel=0.01)
         assert told[2] == pytest.approx(computed[2], rel=0.05)
+
+
+def test_the_page_has_these_numbers(figures):
+    """Words and tables of the page that the program has left behind."""
+    text = " ".join(PAGE.replace("−", "-").split())
+    errors = figures["estimation_rmse"]
+    linear, polynomial = ([errors[number][name] for number in "123"] for name in ("linear", "polynomial"))
+    assert cell("polynomial, experiments 1, 2, 3") == pytest.approx(polynomial, abs=0.006)
+    assert cell("linear") == pytest.approx(linear, abs=0.06)
+    shares = [100 * figures["proposed_over_polynomial"][number] for number in "123"]
+    assert cell("proposed over polynomial") == pytest.approx(shares, abs=1.0)
+    assert f"At 147.5 N it gives {figures['estimation_rmse_lower_peak']['linear']:.1f} N" in text
+    assert f"{figures['peak_hysteresis_force']:.1f} N at most, not 192 N" in text
+    assert "the field with all its harmonics has 250 kN/m" in text
+    assert figures["spring_constant"] == pytest.approx(250e3, rel=5e-3)
+    assert f"{figures['grid_points_unstable_filtered']:,} of these points are unstable" in text
+    assert f"+{figures['stiffest_load_pole_real_part_filtered']:.2f} 1/s" in text
+    steps, blind = (
+        [figures[name][force] for force in ("50", "100")] for name in ("step_error", "step_error_without_line")
+    )
+    assert f"{steps[0]:.1f} and {steps[1]:.1f} N: (31)" in text
+    assert f"{blind[0]:.1f} and {blind[1]:.1f} N at this place" in text
+    told = {name for row in re.findall(r"^\| (`.*?) \|", PAGE, re.MULTILINE) for name in re.findall(r"`(\w+)`", row)}
+    assert set(figures) - {"seeds"} == told
 
 
 def test_the_tables_hold_every_run_and_its_traces(result):
