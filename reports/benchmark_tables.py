@@ -13,7 +13,7 @@ from fluxbore.design.spec import Spec
 from fluxbore.design.units import DIMENSIONS
 from fluxbore.optimize.benchmark import BenchmarkResult, DesignRun, Published
 from fluxbore.reports.tables import Cell, Table
-from fluxbore.reports.wording import DASH, Scale, capital, key_scale, plain, scale, significant
+from fluxbore.reports.wording import DASH, Scale, capital, greek, key_scale, plain, scale, significant
 
 GIVEN = "as the specification has it, without a mark"
 """Why a parameter has its value, where the specification gives it and no reason."""
@@ -82,10 +82,10 @@ def parameters(spec: Spec, prefix: str, default: str, own: Mapping[str, float] |
         rows.append(
             (
                 Cell(capital(key.leaf.replace("_", " "))),
-                Cell(capital(key.doc)),
+                Cell(capital(greek(key.doc))),
                 Cell(_value(spec, key.name, value)),
                 Cell(note.status if note is not None else DASH),
-                Cell(*((note.reason,) if note is not None else (unmarked, "muted"))),
+                Cell(*((greek(note.reason),) if note is not None else (unmarked, "muted"))),
             )
         )
     head = ("Parameter", "What it is", "Value", "Status", "Reason")

@@ -15,7 +15,7 @@ from fluxbore.reports import force_benchmark_loops as loops
 from fluxbore.reports import force_benchmark_poles as stability
 from fluxbore.reports import force_benchmark_runs as runs
 from fluxbore.reports.tables import Cell, Table
-from fluxbore.reports.wording import capital, key_label, listing, plain
+from fluxbore.reports.wording import capital, greek, key_label, listing, plain
 
 DEFAULT = "the default: the paper's, where it has one"
 
@@ -60,7 +60,7 @@ def section(result: BenchmarkResult) -> dict[str, Any]:
         "loci": (loci.over_load(parameters), loci.over_spring(parameters)),
         "iron": iron_table(run, parameters),
         "missed": shared.missed(result),
-        "limits": benchmark.limits,
+        "limits": tuple(greek(text) for text in benchmark.limits),
         "comparison": shared.comparison(sound, errors, benchmark.causes) if len(sound) > 1 else None,
         "variations": shared.variations(result, [*errors, *third, *ends]) if result.variations else None,
         "failed": tuple(f"{item.label}: {' '.join(item.reasons)}" for item in result.runs if not item.ok),
