@@ -108,6 +108,30 @@ def stored_energy(fluid: Fluid, pressure: Any) -> Any:
     return specific_enthalpy(fluid, pressure) - pressure * volume_ratio(fluid, pressure)
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class FluidState:
+    """At gauge pressures: s, e (J/m^3 at the atmosphere's pressure) and beta (Pa)."""
+
+    ratio: Any
+    enthalpy: Any
+    modulus: Any
+
+
+def state_of(fluid: Fluid, pressure: Any) -> FluidState:
+    """`volume_ratio`, `specific_enthalpy` and `bulk_modulus` at once, for a loop that asks for all of them."""
+    m, modulus, n, share = fluid.modulus_rise, fluid.bulk_modulus, fluid.air_exponent, fluid.air_fraction
+    base, absolute = 1 + m / modulus * pressure, pressure / STANDARD_ATMOSPHERE + 1
+    liquid, gas = (1 - share) * base ** (-1 / m), share * absolute ** (-1 / n)
+    ratio = liquid + gas
+    enthalpy = modulus / (m - 1) * (base * liquid - (1 - share))
+    if n == 1:
+        enthalpy = enthalpy + share * STANDARD_ATMOSPHERE * np.log(absolute)
+    else:
+        enthalpy = enthalpy + STANDARD_ATMOSPHERE * n / (n - 1) * (absolute * gas - share)
+    give = liquid / (modulus * base) + gas / (n * STANDARD_ATMOSPHERE * absolute)
+    return FluidState(ratio, enthalpy, ratio / give)
+
+
 def viscosity(fluid: Fluid, temperature: Any) -> Any:
     """mu (Pa s) at a temperature (K)."""
     cold, hot = fluid.reference_temperature, fluid.hot_temperature

@@ -161,7 +161,7 @@ def line_pressure_drop(actuator: HydrostaticActuator, speed: float) -> float:
     resistance = (
         2 * orifice_resistance(actuator.port, flow, rho, mu)
         + 2 * orifice_resistance(actuator.fitting, flow, rho, mu)
-        + orifice_resistance(actuator.block.orifice, flow, rho, mu)
+        + 2 * orifice_resistance(actuator.block.orifice, flow, rho, mu)
         + hose_resistance(hose.bore, hose.length, hose.roughness, flow, rho, mu)
     )
     return resistance * flow
