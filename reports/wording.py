@@ -154,6 +154,8 @@ def subject_measure(spec: Spec, subject: str, size: float = 1.0) -> Measure:
         return measure_of_key(spec.kind.known(subject))
     if FIGURES[subject].dimension == "flux density" and abs(size) < WEAK_FIELD:
         return Measure(1e-3, "mT")
+    if FIGURES[subject].dimension == "rotational inertia" and abs(size) < SMALL_INERTIA:
+        return Measure(1e-7, "g cm^2")
     return measure_of_figure(subject, size)
 
 

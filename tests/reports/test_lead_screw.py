@@ -22,7 +22,7 @@ from fluxbore.reports.content import FluxMap, ReportContent
 from fluxbore.reports.kind_words import LEAD_SCREW
 from fluxbore.reports.lead_screw_content import ScrewContent, SpringSample
 from fluxbore.reports.page import render
-from fluxbore.reports.wording import figure_scale, key_label, scale
+from fluxbore.reports.wording import difference, figure_scale, key_label, scale, subject_measure
 
 SPEC = load(Path(__file__).parents[2] / "examples" / "rotlin.toml")
 DESIGN = replace(evaluate(SPEC, "network"), fidelity="fem")
@@ -195,3 +195,4 @@ def test_small_numbers_keep_their_digits() -> None:
     assert scale("fraction", [0.0158]).quantity(0.0158) == "1.58\u00a0%"
     assert scale("fraction", [0.0]).quantity(0.0) == "0.00\u00a0%"
     assert scale("rotational inertia", [7.68e-5]).quantity(7.68e-5) == "768.0\u00a0g cm²"
+    assert difference(subject_measure(SPEC, "rotor_inertia", 7.68e-5), 1e-6, signed=True) == "+10\u00a0g cm²"
