@@ -78,7 +78,8 @@ def _cylinder(name: str) -> tuple[Key, ...]:
         _length(f"{name}.wall_thickness", "wall of the tube"),
         _length(f"{name}.rod_diameter", "rod diameter"),
         _length(f"{name}.piston_length", "axial length of the piston", default=12e-3),
-        _length(f"{name}.cap_length", "axial length of each end cap", default=15e-3),
+        _length(f"{name}.cap_length", "axial length of each end cap beyond the tube", default=15e-3),
+        _length(f"{name}.bleed_thread", "thread of the bleed screw in the cap end", default=6e-3),
         _quantity(f"{name}.dead_volume", "behind the piston at its end", "volume", 1.0, zero=True, default=0.0),
         _quantity(f"{name}.rated_pressure", "rated pressure", "pressure", 1e9),
         _mass(

@@ -46,6 +46,7 @@ class CylinderShape:
 
     piston_length: float
     cap_length: float
+    bleed_thread: float
     material: str
     rod: str
 
@@ -185,6 +186,7 @@ def from_values(values: Values) -> HydrostaticDesign:
             name: CylinderShape(
                 number(f"{name}.piston_length"),
                 number(f"{name}.cap_length"),
+                number(f"{name}.bleed_thread"),
                 str(values[f"actuator.{name}.material"]),
                 str(values[f"actuator.{name}.rod"]),
             )
