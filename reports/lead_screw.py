@@ -8,11 +8,10 @@ from fluxbore.design.force_series import ForceSeries
 from fluxbore.design.performance import Performance
 from fluxbore.design.spec import Spec
 from fluxbore.optimize.evaluation import Evaluation
-from fluxbore.optimize.pitch_curve import PitchCurve, PitchPoint
-from fluxbore.reports import helical_picture, lead_screw_curves
+from fluxbore.reports import helical_picture, lead_screw_curves, lead_screw_pitch
 from fluxbore.reports.lead_screw_content import ScrewContent
 from fluxbore.reports.tables import Cell, Table
-from fluxbore.reports.wording import capital, change, figure_label, figure_scale, scale, significant
+from fluxbore.reports.wording import capital, change, figure_scale, millimetres, scale, significant
 
 ARCS = (
     "Magnets cut in arcs are computed as their mean over the rotor’s angle, which is what makes the mean force; the "
@@ -20,12 +19,6 @@ ARCS = (
 )
 
 MEMBERS = ("translator", "rotor")
-
-NOTABLE = 0.02
-"""By which the routes may differ before the page says what it means."""
-
-FEW = 4
-"""Poles along the axis, below which a field without ends is a poor guide."""
 
 
 def section(content: ScrewContent, spec: Spec, design: Evaluation) -> dict[str, Any]:
@@ -44,7 +37,7 @@ def section(content: ScrewContent, spec: Spec, design: Evaluation) -> dict[str, 
         "field": helical_picture.field_picture(content),
         "arcs": ARCS if any(getattr(content.screw, member).arcs for member in MEMBERS) else "",
         "pitch": lead_screw_curves.pitch_curves(content.pitch) if content.pitch is not None else None,
-        "pitch_text": pitch(content.pitch) if content.pitch is not None else (),
+        "pitch_text": lead_screw_pitch.sentences(content.pitch) if content.pitch is not None else (),
         "iron": iron(content) if content.iron else None,
         "iron_note": iron_note(content),
     }
@@ -56,7 +49,7 @@ def spring(content: ScrewContent, load: float, figures: Performance) -> tuple[st
     slope = float(content.spring.stiffness(0.0))
     found = [
         f"At rest the spring has {scale('stiffness', [slope]).quantity(slope)}; it softens to nothing at "
-        f"{_mm(top)}, where it holds {_force(stall)}, its stall force."
+        f"{millimetres(top)}, where it holds {_force(stall)}, its stall force."
     ]
     rest = content.spring.rest(load)
     if load <= 0:
@@ -68,8 +61,8 @@ def spring(content: ScrewContent, load: float, figures: Performance) -> tuple[st
     else:
         left = float(content.spring.stiffness(rest))
         found.append(
-            f"The load of {_force(load)} displaces it by {_mm(rest)}, {_percent(rest / top)} of the way to the stall; "
-            f"{scale('stiffness', [left]).quantity(left)} are left there."
+            f"The load of {_force(load)} displaces it by {millimetres(rest)}, {_percent(rest / top)} of the way to the "
+            f"stall; {scale('stiffness', [left]).quantity(left)} are left there."
         )
     if figures.slip_margin is not None and load > 0 and rest is not None and figures.slip_margin < 1:
         found.append(
@@ -87,9 +80,9 @@ def overload(content: ScrewContent, load: float, figures: Performance) -> tuple[
     series: ForceSeries = content.spring
     barrier = scale("work", [series.barrier]).quantity(series.barrier)
     found = [
-        f"Pushed over the top the rotor snaps to the next rest, {_mm(series.pitch)} on. Nothing breaks; position is "
-        f"lost by whole pitches, and an encoder on either side sees it. {barrier} are stored at the top, "
-        f"{_mm(series.pitch / 2)} from rest."
+        f"Pushed over the top the rotor snaps to the next rest, {millimetres(series.pitch)} on. Nothing breaks; position "
+        f"is lost by whole pitches, and an encoder on either side sees it. {barrier} are stored at the top, "
+        f"{millimetres(series.pitch / 2)} from rest."
     ]
     if load > 0:
         work = load * series.pitch
@@ -147,74 +140,15 @@ def stroke(content: ScrewContent, load: float) -> tuple[str, ...]:
     stall = content.spring.peak[1]
     if share >= 1 - 1e-9:
         return (
-            f"All {content.screw.poles} poles are engaged over the whole stroke of {_mm(content.stroke)}; they would "
-            f"be over {_mm(2 * reach)}.",
+            f"All {content.screw.poles} poles are engaged over the whole stroke of {millimetres(content.stroke)}; they "
+            f"would be over {millimetres(2 * reach)}.",
         )
     left = f"{_force(share * stall)}, {_percent(share)} of the stall force"
     text = (
-        f"At the ends of the stroke of {_mm(content.stroke)} poles run out of the translator: {left}, "
-        f"is left. All poles are engaged over {_mm(2 * reach)} alone."
+        f"At the ends of the stroke of {millimetres(content.stroke)} poles run out of the translator: {left}, "
+        f"is left. All poles are engaged over {millimetres(2 * reach)} alone."
     )
     return (text, "The load slips there.") if 0 < share * stall < load <= stall else (text,)
-
-
-def pitch(curve: PitchCurve) -> tuple[str, ...]:
-    """Where each figure would be best at the design's own length of poles, and what limits the pitch."""
-    found = []
-    if curve.network:
-        for name in lead_screw_curves.PER_LENGTH:
-            text = _best(curve, name)
-            if text:
-                found.append(text)
-        found += _apart(curve)
-    if curve.network and curve.least:
-        found.append(f"Below {_mm(curve.network[0].pitch)}: {curve.least}")
-    if curve.network and curve.most:
-        found.append(f"Above {_mm(curve.network[-1].pitch)}: {curve.most}")
-    if not curve.network:
-        found.append(f"No other pitch can be built: {curve.least or curve.most}")
-    return tuple(found)
-
-
-def _apart(curve: PitchCurve) -> list[str]:
-    """What to think of the analytic field where the finite elements say something else."""
-    name = lead_screw_curves.PER_LENGTH[0]
-    near = min(curve.network, key=lambda item: abs(item.pitch - curve.design.pitch))
-    ideal, real = (getattr(item.evaluation.performance, name) for item in (near, curve.design))
-    if ideal is None or real is None or abs(ideal / real - 1) < NOTABLE:
-        return []
-    return [
-        f"At the design’s own pitch the analytic field’s stall force is {change(real, ideal)} against the finite "
-        "elements, for its iron does not saturate: of these curves trust the circles."
-    ]
-
-
-def _best(curve: PitchCurve, name: str) -> str:
-    """The pitch with the largest figure for the same length of poles, beside the design's."""
-    label = figure_label(name)
-
-    def value(item: PitchPoint) -> float:
-        own = getattr(item.evaluation.performance, name)
-        return 0.0 if own is None else own * curve.design.active_length / item.active_length
-
-    best = max(curve.network, key=value)
-    own = min(curve.network, key=lambda item: abs(item.pitch - curve.design.pitch))
-    place = curve.network.index(best)
-    found = figure_scale(name, [value(best)]).quantity(value(best))
-    more = change(value(own), value(best))
-    edge = place in (0, len(curve.network) - 1)
-    word = "still grows towards" if edge else "is largest at"
-    gain = f"{more} against the design’s own pitch" if best is not own else "the design’s own pitch"
-    poles = 2 * curve.design.active_length / best.pitch
-    few = (
-        f" That is {significant(poles, 2)} poles, and the fewer there are the more their ends count."
-        if poles < FEW
-        else ""
-    )
-    return (
-        f"With {_mm(curve.design.active_length)} of poles, by the analytic field, the {label} {word} "
-        f"{_mm(best.pitch)}: {found}, {gain}.{few}"
-    )
 
 
 def iron(content: ScrewContent) -> Table:
@@ -267,10 +201,6 @@ def seen(content: ScrewContent, design: Evaluation | None) -> tuple[str, ...]:
         f"fields’ energies there and at rest: {change(content.field_energy, spring.barrier)}."
     )
     return tuple(found)
-
-
-def _mm(length: float) -> str:
-    return f"{significant(length * 1e3)}\u00a0mm"
 
 
 def _force(force: float) -> str:

@@ -277,6 +277,11 @@ def duration(seconds: float) -> str:
     return f"{whole} s" if whole < 120 else f"{whole // 60} min {whole % 60} s"
 
 
+def millimetres(length: float) -> str:
+    """``5.143 mm``, without trailing zeros."""
+    return f"{significant(length * 1e3)}\u00a0mm"
+
+
 def capital(text: str) -> str:
     """The first letter large, the rest as it is."""
     return text[:1].upper() + text[1:]

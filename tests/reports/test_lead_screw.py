@@ -17,7 +17,7 @@ from fluxbore.optimize.evaluate import evaluate
 from fluxbore.optimize.evaluation import Evaluation
 from fluxbore.optimize.lead_screw_field import magnetised
 from fluxbore.optimize.pitch_curve import PITCH, PitchCurve, PitchPoint
-from fluxbore.reports import lead_screw
+from fluxbore.reports import lead_screw, lead_screw_pitch
 from fluxbore.reports.content import FluxMap, ReportContent
 from fluxbore.reports.kind_words import LEAD_SCREW
 from fluxbore.reports.lead_screw_content import ScrewContent, SpringSample
@@ -39,7 +39,7 @@ def a_map(place: float) -> FluxMap:
     return FluxMap(r, z, triangles, flux, 1 + np.cos(z[triangles].mean(axis=1)), (("magnets, north", box),), place)
 
 
-def a_curve(pitches: tuple[float, ...] = (2.5e-3, 5.384e-3, 9e-3)) -> PitchCurve:
+def a_curve(pitches: tuple[float, ...] = (3.2e-3, 5.384e-3, 9e-3)) -> PitchCurve:
     own = SPEC.number(PITCH)
     points = [PitchPoint(p, 2 * p, evaluate(SPEC.with_values({PITCH: p}), "network")) for p in sorted({*pitches, own})]
     return PitchCurve(PitchPoint(own, 2 * own, DESIGN), tuple(points), tuple(points[:1]), "Too short.", "")
@@ -140,12 +140,13 @@ def test_words_follow_the_stroke(screw: ScrewContent) -> None:
 
 def test_pitch_is_judged_at_the_same_length_of_poles() -> None:
     """The largest spring constant lies inside the curve, the largest stall force at its end."""
-    force, stiffness, least = lead_screw.pitch(a_curve())
+    force, stiffness, torque, least = lead_screw_pitch.sentences(a_curve())
     assert "the stall force still grows towards 9\u00a0mm" in force
     assert "2.3 poles" in force
     assert "the spring constant is largest at 5.384\u00a0mm" in stiffness
-    assert "poles, and the fewer" in stiffness  # 3.8 of them
-    assert least == "Below 2.5\u00a0mm: Too short."
+    assert "and the fewer" not in stiffness  # there are 3.8 of them
+    assert "still falls towards a pitch of 3.2\u00a0mm" in torque
+    assert least == "Below 3.2\u00a0mm: Too short."
 
 
 def test_pitch_warns_where_the_routes_part(screw: ScrewContent) -> None:
@@ -153,10 +154,12 @@ def test_pitch_warns_where_the_routes_part(screw: ScrewContent) -> None:
     stall = DESIGN.performance.stall_force
     assert stall is not None
     weaker = replace(DESIGN, performance=replace(DESIGN.performance, stall_force=0.8 * stall))
-    apart = lead_screw.pitch(replace(curve, design=replace(curve.design, evaluation=weaker)))
+    apart = lead_screw_pitch.sentences(replace(curve, design=replace(curve.design, evaluation=weaker)))
     assert any("+25.0\u00a0%" in text and "trust the circles" in text for text in apart)
-    assert not any("trust the circles" in text for text in lead_screw.pitch(curve))
-    assert lead_screw.pitch(replace(curve, network=(), fem=())) == ("No other pitch can be built: Too short.",)
+    assert not any("trust the circles" in text for text in lead_screw_pitch.sentences(curve))
+    assert lead_screw_pitch.sentences(replace(curve, network=(), fem=())) == (
+        "No other pitch can be built: Too short.",
+    )
 
 
 def test_back_iron_of_the_screw_itself_stands_out(screw: ScrewContent) -> None:
