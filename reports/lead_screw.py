@@ -80,8 +80,8 @@ def overload(content: ScrewContent, load: float, figures: Performance) -> tuple[
     series: ForceSeries = content.spring
     barrier = scale("work", [series.barrier]).quantity(series.barrier)
     found = [
-        f"Pushed over the top the rotor snaps to the next rest, {millimetres(series.pitch)} on. Nothing breaks; position "
-        f"is lost by whole pitches, and an encoder on either side sees it. {barrier} are stored at the top, "
+        f"Pushed over the top the rotor snaps to the next rest, {millimetres(series.pitch)} on. Nothing breaks; "
+        f"position is lost by whole pitches, and an encoder on either side sees it. {barrier} are stored at the top, "
         f"{millimetres(series.pitch / 2)} from rest."
     ]
     if load > 0:
