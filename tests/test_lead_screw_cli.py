@@ -121,15 +121,13 @@ def test_what_cannot_be_built(capsys: pytest.CaptureFixture[str], changes: tuple
         ("optimize", ("study.variables.6.resolution=1",), "study.variables.6"),
         ("optimize", ("study.variables.1.lower=2 mm",), "study.variables.1"),
         ("optimize", ("study.constraints.0.upper=start s",), "study.constraints.0.upper"),
-        ("optimize", ("study.constraints.3.upper=1.6 N",), "must be a flux density"),
+        ("optimize", ("study.constraints.4.upper=1.6 N",), "must be a flux density"),
         (
             "optimize",
             ("study.hold.3=actuator.translator.outer_radius",),
             "at most 2 of actuator.translator.outer_radius, actuator.rotor.outer_radius, actuator.rotor.frame",
         ),
         ("pareto", ("study.pareto.against=maximise spring_constant",), "study.variables must be continuous"),
-        ("tolerance", ("study.production.tolerances.0.key=actuator.poles",), "study.production.tolerances.0.key"),
-        ("tolerance", ("study.production.tolerances.0.tolerance=-1 mm",), "study.production.tolerances.0"),
         ("sweep", ("study.sweeps.0.axes.0.key=actuator.rotor.magnets",), "study.sweeps.0.axes.0.key"),
         ("sweep", ("study.sweeps.0.axes.0.step=0 mm",), "study.sweeps.0.axes.0.step"),
     ],
@@ -138,6 +136,19 @@ def test_what_cannot_be_studied(
     capsys: pytest.CaptureFixture[str], command: str, changes: tuple[str, ...], words: str
 ) -> None:
     assert words in refusal(capsys, command, STUDY, "-o", "out", *settings(*changes))
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ("study.production.tolerances.0.key=actuator.poles", "study.production.tolerances.0.key"),
+        ("study.production.tolerances.0.tolerance=-1 mm", "study.production.tolerances.0"),
+        ("study.production.tolerances.1.tolerance=0.1 mm", "study.production.tolerances.1.tolerance must be a flux"),
+    ],
+)
+def test_what_cannot_scatter(capsys: pytest.CaptureFixture[str], change: str, words: str) -> None:
+    spec = str(EXAMPLES / "rotlin-tolerance.toml")
+    assert words in refusal(capsys, "tolerance", spec, "-o", "out", "--set", change)
 
 
 def test_a_pitch_that_cannot_be_built_is_a_row_with_its_reason(capsys: pytest.CaptureFixture[str]) -> None:
