@@ -54,7 +54,7 @@ class Demand:
 def demand(actuator: HydrostaticActuator, amplitude: float, frequency: float, least_force: float) -> Demand:
     """Of an amplitude F (N, half the distance between peaks), a frequency (Hz) and the least force F_0 (N)."""
     cylinder, element = actuator.output_cylinder, actuator.return_element
-    middle = _extension(actuator, least_force + amplitude)
+    middle = extension_at(actuator, least_force + amplitude)
     k = stiffness(actuator, middle)
     if k <= 0:  # a constant force asks for no way at all
         return Demand(0.0, 0.0, (least_force + 2 * amplitude) / (cylinder.area * cylinder.rated_pressure), 0.0, 0.0)
@@ -108,7 +108,7 @@ def operating_map(
     return largest, names
 
 
-def _extension(actuator: HydrostaticActuator, force: float) -> float:
+def extension_at(actuator: HydrostaticActuator, force: float) -> float:
     """Of the return element at a force (N), within the stroke (m)."""
     element, stroke = actuator.return_element, actuator.output_cylinder.stroke
 

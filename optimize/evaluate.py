@@ -12,6 +12,7 @@ from fluxbore.optimize import (
     hybrid_figures,
     hybrid_gaps,
     hydrostatic_figures,
+    hydrostatic_gaps,
     lead_screw_figures,
     lead_screw_gaps,
 )
@@ -35,7 +36,7 @@ class Model:
 MODELS: dict[str, Model] = {
     "coils": Model(coils_figures.by_network, coils_figures.by_fem, gradients=True),
     "hybrid": Model(hybrid_figures.by_network, hybrid_figures.by_fem, gradients=True, never=hybrid_gaps.never),
-    "hydrostatic": Model(hydrostatic_figures.by_network, hydrostatic_figures.by_fem),
+    "hydrostatic": Model(hydrostatic_figures.by_network, hydrostatic_figures.by_fem, never=hydrostatic_gaps.never),
     "lead-screw": Model(
         lead_screw_figures.by_network, lead_screw_figures.by_fem, gradients=True, never=lead_screw_gaps.never
     ),
