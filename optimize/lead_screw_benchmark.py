@@ -195,7 +195,7 @@ def _variations(spec: Spec, field: DesignFigures) -> Sequence[tuple[str, Mapping
     parts = (
         ("amplitude of the zero-force line", "distortion"),
         ("friction of the guides, unknown to the controller", "friction"),
-        ("stiffness of the load", "load_stiffness"),
+        ("position gain of the control", "position_gain"),
         ("speed of the unloaded runs", "detection_speed"),
         ("spring constant of the linear estimate", "spring_constant"),
     )

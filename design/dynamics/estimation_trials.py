@@ -69,7 +69,24 @@ def detection_reach(plant: ForceParameters, speed: float) -> tuple[float, float]
 
 
 def to_and_fro(plant: ForceParameters, speed: float | None = None) -> Floats:
-    """References of the angle (rad) for an unloaded run forward and one backward at one speed (m/s) of the mover."""
+    """References of the angle (rad) for an unloaded run forward and one backward at one speed (m/s) of the mover.
+
+    Another leads to their start.
+    """
+    return np.concatenate(_legs(plant, speed)) / plant.transfer_ratio
+
+
+def detect(plant: ForceParameters, speed: float | None = None) -> Detection:
+    """x_d0 as the unloaded runs of the plant tell it."""
+    legs = _legs(plant, speed)
+    log = run_plant(plant, np.concatenate(legs) / plant.transfer_ratio, loaded=False).log
+    begun = len(legs[0])
+    both = replace(log, angle=log.angle[begun:], position=log.position[begun:], force=None)
+    return detect_distortion(both, plant.transfer_ratio)
+
+
+def _legs(plant: ForceParameters, speed: float | None) -> tuple[Floats, Floats, Floats]:
+    """Places of the mover (m): to the start of the runs, forward, backward."""
     speed = plant.detection_speed if speed is None else speed
     low, high = detection_reach(plant, speed)
     T = plant.control_period
@@ -84,14 +101,7 @@ def to_and_fro(plant: ForceParameters, speed: float | None = None) -> Floats:
         gone = np.cumsum(rate)
         return np.asarray(way * gone / gone[-1])
 
-    legs = (leg(low), low + leg(high - low), high + leg(low - high))
-    return np.concatenate(legs) / plant.transfer_ratio
-
-
-def detect(plant: ForceParameters, speed: float | None = None) -> Detection:
-    """x_d0 as the unloaded runs of the plant tell it."""
-    run = run_plant(plant, to_and_fro(plant, speed), loaded=False)
-    return detect_distortion(run.log, plant.transfer_ratio)
+    return leg(low), low + leg(high - low), high + leg(low - high)
 
 
 def fitted_polynomial(plant: ForceParameters) -> PolynomialSpring:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from fluxbore.design.dynamics.force_parameters import ForceParameters
 from fluxbore.design.dynamics.magnetic_hysteresis import peak_force
 from fluxbore.design.errors import SpecError
@@ -41,9 +43,12 @@ def check(parameters: ForceParameters) -> None:
         tip = float(getattr(p, name))
         if not tip < p.stall_force:
             raise _beyond(name, "below the stall force", p.stall_force, tip, "force")
+    slowest = 0.5 / p.duration if p.duration > 0 else math.inf
     least = LEAST_PERIODS * p.control_period
     if not p.duration >= least * (1 - 1e-9):
         raise _beyond("duration", f"at least {LEAST_PERIODS} control periods", least, p.duration, "time")
+    if not p.frequency >= slowest * (1 - 1e-9):
+        raise _beyond("frequency", "at least that of half a movement in a run", slowest, p.frequency, "frequency")
 
 
 def _check_hysteresis(p: ForceParameters) -> None:

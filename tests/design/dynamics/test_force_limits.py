@@ -8,7 +8,7 @@ import pytest
 from rotlin_stand import ROTLIN
 
 from fluxbore.design.dynamics.estimation_run import run_plant
-from fluxbore.design.dynamics.estimation_trials import pressing, to_and_fro
+from fluxbore.design.dynamics.estimation_trials import detect, pressing, to_and_fro
 from fluxbore.design.dynamics.force_limits import check
 from fluxbore.design.dynamics.force_stand import controller_of, stand_of
 from fluxbore.design.dynamics.force_step import simulate_step
@@ -40,6 +40,7 @@ def test_the_paper_s_own_are_not_refused():
         ({"second_step": 185.0, "smooth_friction": 10.0}, "second_step must be below what the screw holds less its"),
         ({"second_loop": 192.0}, "second_loop must be below the stall force, 192 N; got 192 N."),
         ({"duration": 0.05}, "duration must be at least 1000 control periods, 0.1 s; got 0.05 s."),
+        ({"frequency": 0.04}, "frequency must be at least that of half a movement in a run, 0.05 Hz; got 0.04 Hz."),
         ({"xi": 3001.0}, "xi must be at most benchmark.force.psi, 3000 1/m; got 3001 1/m."),
         ({"third_peak": float("nan")}, "third_peak must be below the largest force"),
     ],
@@ -58,6 +59,15 @@ def test_runs_that_never_end_are_refused_before_they_begin():
         to_and_fro(ROTLIN, 1e-6)
     with pytest.raises(DesignError, match="at most 5000000 steps in time"):
         pressing(replace(ROTLIN, mass=1e-12), 45.0, 10.0)
+
+
+def test_a_short_way_tells_the_line_too():
+    """Catches the way to the start of the unloaded runs taken for one of them: a stiff load leaves them 7 mm."""
+    short = replace(ROTLIN, load_stiffness=22.5e3)
+    line = detect(short).distortion
+    angle = np.linspace(0.0, line.last, 2000)
+    apart = line(angle) - short.zero_force_line(angle, short.transfer_ratio * angle)
+    assert float(np.sqrt(np.mean(apart**2))) < 0.5e-6
 
 
 def test_a_screw_that_slips_is_told():
