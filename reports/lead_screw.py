@@ -45,13 +45,13 @@ def section(content: ScrewContent, spec: Spec, design: Evaluation) -> dict[str, 
 
 def spring(content: ScrewContent, load: float, figures: Performance) -> tuple[str, ...]:
     """How far the load bends the spring, and how much of it is left."""
-    top, stall = content.spring.peak
+    top, stall = content.peak
     slope = float(content.spring.stiffness(0.0))
     found = [
         f"At rest the spring has {scale('stiffness', [slope]).quantity(slope)}; it softens to nothing at "
         f"{millimetres(top)}, where it holds {_force(stall)}, its stall force."
     ]
-    rest = content.spring.rest(load)
+    rest = content.rest_under(load)
     if load <= 0:
         found.append("The specification names no load.")
     elif rest is None:
@@ -97,14 +97,14 @@ def overload(content: ScrewContent, load: float, figures: Performance) -> tuple[
             risk = " The specified load is above that." if load > limit else " The specified load stays below that."
         found.append(
             f"A load that is put on at once makes the mover swing about twice as far as it will rest: without friction "
-            f"the screw slips from {_force(limit)}, {_percent(limit / series.peak[1])} of the stall force.{risk}"
+            f"the screw slips from {_force(limit)}, {_percent(limit / content.peak[1])} of the stall force.{risk}"
         )
     return tuple(found)
 
 
 def back_driving(content: ScrewContent, friction: float, load: float) -> tuple[str, ...]:
     """Whether a load turns the rotor, and what the motor must hold."""
-    h, stall = content.screw.h, content.spring.peak[1]
+    h, stall = content.screw.h, content.peak[1]
     found = []
     if friction <= 0:
         found.append(
@@ -137,7 +137,7 @@ def stroke(content: ScrewContent, load: float) -> tuple[str, ...]:
 
     share = float(engaged_fraction(content.screw, content.stroke / 2))
     reach = full_engagement(content.screw)
-    stall = content.spring.peak[1]
+    stall = content.peak[1]
     if share >= 1 - 1e-9:
         return (
             f"All {content.screw.poles} poles are engaged over the whole stroke of {millimetres(content.stroke)}; they "
@@ -175,7 +175,7 @@ def iron(content: ScrewContent) -> Table:
 
 def iron_note(content: ScrewContent) -> str:
     """Of which force the table's remanences are."""
-    if content.iron_force == content.spring.peak[1]:
+    if content.iron_force == content.peak[1]:
         return "The remanences are those with which each case would have the design’s stall force."
     return "The remanences are those with which each case would have the stall force of benchmark.force.stall_force."
 
@@ -190,7 +190,7 @@ def seen(content: ScrewContent, design: Evaluation | None) -> tuple[str, ...]:
             f"{details['newton_iterations']:.0f} steps together, largest relative residual "
             f"{significant(details['largest_residual'], 2)}."
         )
-    spring, stall = content.spring, content.spring.peak[1]
+    spring, stall = content.spring, content.peak[1]
     found.append(
         f"The analytic field’s stall force lies {change(stall, content.analytic.peak[1])} against the finite elements, "
         f"its spring constant {change(float(spring.stiffness(0.0)), float(content.analytic.stiffness(0.0)))}."

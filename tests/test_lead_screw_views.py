@@ -39,6 +39,9 @@ def test_spring_runs_through_the_fields_that_were_solved(screw: ScrewContent) ->
     # The closed form takes the space between magnets as permeable as they are.
     fault = (screw.screw.rotor.magnet_permeability - 1) * (1 - 2 * WIDTH / screw.screw.pitch)
     assert stall == pytest.approx(screw.analytic.peak[1], rel=fault)
+    assert screw.peak == pytest.approx(screw.spring.peak, rel=1e-3)
+    assert screw.rest_under(0.5 * stall) == screw.spring.rest(0.5 * stall)
+    assert screw.rest_under(1.01 * screw.peak[1]) is None
 
 
 def test_energy_of_the_fields_is_the_force_s_work(screw: ScrewContent) -> None:
@@ -48,7 +51,7 @@ def test_energy_of_the_fields_is_the_force_s_work(screw: ScrewContent) -> None:
 def test_outlines_are_the_magnets_where_they_stand(screw: ScrewContent) -> None:
     pitch, stall = screw.screw.pitch, screw.stall.position
     assert screw.rest.position == 0
-    assert stall == pytest.approx(screw.spring.peak[0])
+    assert stall == screw.peak[0]
     for field in (screw.rest, screw.stall):
         rotor = {name: box for name, box in reversed(field.outlines) if name.startswith("rotor magnets")}
         first = rotor["rotor magnets, north"]
@@ -75,7 +78,7 @@ def test_field_is_strong_in_magnets_and_weak_between_them(screw: ScrewContent) -
 
 def test_positions_reach_from_no_engagement_to_no_engagement(screw: ScrewContent) -> None:
     assert screw.engaged[0] == screw.engaged[-1] == 0
-    assert max(screw.engaged) == pytest.approx(screw.spring.peak[1])
+    assert max(screw.engaged) == screw.peak[1]
     assert screw.stroke == pytest.approx(80e-3)
     assert screw.iron_force == 192.0
 

@@ -60,16 +60,15 @@ def screw_content(spec: Spec, design: Evaluation) -> ScrewContent | None:
             SpringSample(item.section.displacement, periods(screw) * force(item))
             for item in sorted(field.solved, key=lambda item: item.section.displacement)
         )
+        top, peak = field.stall.section.displacement, periods(screw) * force(field.stall)
         # Half a pitch away less next to rest, and the little that the spring holds there.
         near, away = (item for item in (field.rest, field.slipping) if item is not None)
         energy = periods(screw) * (coenergy(near) - coenergy(away))
         energy += float(field.series.energy(near.section.displacement))
         finer = int(spec.number("solver.mesh_refinement")) + 1  # so that field lines are smooth to the eye
-        rest, stall = (
-            _flux_map(solve(section(spec, screw, place), finer), screw) for place in (0.0, field.series.peak[0])
-        )
+        rest, stall = (_flux_map(solve(section(spec, screw, place), finer), screw) for place in (0.0, top))
         pitch = pitch_curve(spec, design)
-    stroke, peak = spec.actuator.stroke, field.series.peak[1]
+    stroke = spec.actuator.stroke
     reach = max(stroke, screw.translator_length + screw.active_length) / 2  # beyond it nothing is engaged
     positions = np.linspace(-reach, reach, SAMPLES)
     asked = float(spec.values[STALL_FORCE]) if STALL_FORCE in spec.given else peak
@@ -78,6 +77,7 @@ def screw_content(spec: Spec, design: Evaluation) -> ScrewContent | None:
         field.series,
         force_series(screw),
         samples,
+        (top, peak),
         energy,
         rest,
         stall,

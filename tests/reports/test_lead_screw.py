@@ -17,7 +17,7 @@ from fluxbore.optimize.evaluate import evaluate
 from fluxbore.optimize.evaluation import Evaluation
 from fluxbore.optimize.lead_screw_field import magnetised
 from fluxbore.optimize.pitch_curve import PITCH, PitchCurve, PitchPoint
-from fluxbore.reports import lead_screw, lead_screw_pitch
+from fluxbore.reports import lead_screw, lead_screw_curves, lead_screw_pitch
 from fluxbore.reports.content import FluxMap, ReportContent
 from fluxbore.reports.kind_words import LEAD_SCREW
 from fluxbore.reports.lead_screw_content import ScrewContent, SpringSample
@@ -55,7 +55,19 @@ def screw() -> ScrewContent:
     maps = a_map(0.0), a_map(spring.pitch / 4)
     ends = (-48e-3, 48e-3)
     return ScrewContent(
-        built, spring, spring, samples, spring.barrier, *maps, ends, (0.0, 0.0), 70e-3, cases, 192.0, a_curve()
+        built,
+        spring,
+        spring,
+        samples,
+        spring.peak,
+        spring.barrier,
+        *maps,
+        ends,
+        (0.0, 0.0),
+        70e-3,
+        cases,
+        192.0,
+        a_curve(),
     )
 
 
@@ -115,6 +127,16 @@ def test_words_follow_the_load(screw: ScrewContent) -> None:
     hurried = replace(DESIGN.performance, slip_margin=0.9)
     assert "slips while the motor speeds" in words(screw, 0.5 * limit, hurried)
     assert "slips while the motor speeds" not in below
+
+
+def test_stall_is_that_of_the_field_where_the_series_misses_it(screw: ScrewContent) -> None:
+    place, stall = screw.peak
+    sharp = replace(screw, peak=(place, 0.95 * stall))
+    drawn = lead_screw_curves.force_curve(sharp, 0.0)
+    assert "is out by 5\u00a0%" in drawn.caption
+    assert "is out by" not in lead_screw_curves.force_curve(screw, 0.0).caption
+    assert scale("force", [stall]).quantity(0.95 * stall) in drawn.alt
+    assert "holds it nowhere" in words(sharp, 0.97 * stall)
 
 
 def test_words_follow_the_friction(screw: ScrewContent) -> None:
