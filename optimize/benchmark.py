@@ -71,6 +71,7 @@ class Benchmark:
     what agreement with the source does not show, in sentences. variations : of a design and its field, other values of
     keys that leave the field as it is, each with what it is called. random : whether its trials are drawn by chance, so
     that one seed differs from another. own : leaves of its keys that describe a design and not the test stand.
+    usual_seeds : how many are drawn where their number is not given.
     """
 
     name: str
@@ -85,6 +86,7 @@ class Benchmark:
     variations: Callable[[Spec, Any], Sequence[tuple[str, Mapping[str, Value]]]] = lambda spec, field: ()
     random: bool = True
     own: tuple[str, ...] = ()
+    usual_seeds: int = 5
 
     @property
     def section(self) -> str:
@@ -142,10 +144,10 @@ class BenchmarkResult:
 
     @property
     def moved(self) -> tuple[Published, ...]:
-        """The published figures that any variation changes."""
+        """The published figures that any variation changes; one that it leaves out is not changed."""
         first = self.run.simulations[0].figures
         return tuple(
             item
             for item in self.benchmark.published
-            if any(run.ok and item.of(run.figures) != item.of(first) for run in self.variations)
+            if any(run.ok and item.of(run.figures) not in (None, item.of(first)) for run in self.variations)
         )

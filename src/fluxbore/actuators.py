@@ -13,6 +13,7 @@ from fluxbore.geometry import coils
 from fluxbore.geometry.assembly import Assembly
 from fluxbore.optimize.benchmark import Benchmark
 from fluxbore.optimize.hybrid_contact_force import MCFC
+from fluxbore.optimize.hydrostatic_benchmark import TRACKING
 from fluxbore.optimize.lead_screw_benchmark import FORCE
 from fluxbore.reports import kind_words
 from fluxbore.reports.kind_words import PLAIN, KindWords
@@ -54,7 +55,7 @@ ACTUATORS: dict[str, Actuator] = {
         hybrid_views.femm_model,
         {MCFC.name: MCFC},
     ),
-    "hydrostatic": Actuator(hydrostatic_views.assembly, kind_words.HYDROSTATIC),
+    "hydrostatic": Actuator(hydrostatic_views.assembly, kind_words.HYDROSTATIC, benchmarks={TRACKING.name: TRACKING}),
     "lead-screw": Actuator(
         lead_screw_views.assembly,
         kind_words.LEAD_SCREW,

@@ -23,13 +23,14 @@ def add_to(add: Add) -> None:
     parser.add_argument(
         "--benchmark",
         metavar="NAME",
-        help="mcfc of the hybrid actuator, force of the lead screw; default: the one that the actuator's kind has",
+        help="mcfc of the hybrid actuator, force of the lead screw, tracking of the electro-hydrostatic one; "
+        "default: the one that the actuator's kind has",
     )
     parser.add_argument(
         "--seeds",
         metavar="N",
         type=_whole,
-        help="how many; default: 5, of a benchmark in which nothing is drawn by chance 1",
+        help="how many; default: 5 of mcfc, 1 of the others",
     )
     parser.add_argument("--seed", metavar="S", type=_whole, default=1, help="the first of them; default: 1")
     parser.add_argument(

@@ -27,9 +27,6 @@ from fluxbore.workshop import DESIGN_FILE, Workshop, workshop
 
 FIGURES_FILE = "figures.json"
 
-SEEDS = 5
-"""Where their number is not given; one where nothing is drawn by chance."""
-
 MOST_SEEDS = 1000
 LARGEST_SEED = 2**31 - 1
 
@@ -54,11 +51,11 @@ def simulate(
 ) -> BenchmarkResult:
     """Put the specification's design through a benchmark of its kind, such as "mcfc"; without a name, the only one.
 
-    seeds : how many, 5 where not given; the first is ``seed``, each other one more. A benchmark in which nothing is
-    drawn by chance has one. against : other designs, put through the same with
-    the specification's own section of the benchmark, so that only the designs differ. vary : whether the first seed is
-    run under the benchmark's other conditions too, for a table of sensitivities. folder : gets ``results.csv``,
-    ``traces.parquet``, ``figures.json``, ``report.html`` and the journal, from which the same run takes what it has.
+    seeds : how many, `Benchmark.usual_seeds` where not given, and one where nothing is drawn by chance; the first is
+    ``seed``, each other one more. against : other designs, put through the same with the specification's own section
+    of the benchmark, so that only the designs differ. vary : whether the first seed is run under the benchmark's other
+    conditions too, for a table of sensitivities. folder : gets ``results.csv``, ``traces.parquet``, ``figures.json``,
+    ``report.html`` and the journal, from which the same run takes what it has.
     fidelity : what computes the field that the mover passes. picture : whether the report has a rendered view.
 
     Look at ``.ok`` first: a design whose field does not converge comes back without figures and with its reasons.
@@ -108,7 +105,7 @@ def benchmark_of(spec: Spec, name: str | None = None) -> Benchmark:
 
 
 def _seeds(benchmark: Benchmark, wanted: int | None, first: int) -> tuple[int, ...]:
-    count = wanted if wanted is not None else SEEDS if benchmark.random else 1
+    count = wanted if wanted is not None else benchmark.usual_seeds if benchmark.random else 1
     if not benchmark.random and count > 1:
         raise SpecError(
             f"seeds must be 1 for the benchmark {benchmark.name}, in which nothing is drawn by chance; "
