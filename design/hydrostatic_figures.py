@@ -108,6 +108,19 @@ def total_mass(actuator: HydrostaticActuator) -> float:
     return sum(part.mass for part in parts) + others + hose.linear_mass * hose.length + filled
 
 
+@dataclass(frozen=True, slots=True)
+class ForceDensity:
+    """Force at rated pressure, without friction, over the mass at the joint and over all of it (N/kg)."""
+
+    distal: float
+    total: float
+
+
+def force_density(actuator: HydrostaticActuator) -> ForceDensity:
+    """Of components whose mass is told; one that is left out makes the actuator look better than it is."""
+    return ForceDensity(ideal_force(actuator) / distal_mass(actuator), ideal_force(actuator) / total_mass(actuator))
+
+
 def burst_factor(cylinder: HydraulicCylinder, material: Material) -> float:
     """Yield stress over the equivalent stress at the bore, at the rated pressure, with closed ends (Lame).
 

@@ -53,7 +53,8 @@ ASSUMED = {
     "fluid.bulk_modulus": "of water and glycol by their velocity of sound",
     "fluid.air_fraction": "0.5 %, the default of Simscape's hydraulic fluid, in which the paper's model was made",
     "return_spring.preload": "the 45 N by which the references are offset to compensate for the springs' pretension",
-    "mass": "the split of 0.5 kg between cylinder and springs",
+    "output_cylinder.mass": "the split of the published 0.5 kg between cylinder and springs",
+    "mass": "of motor, coupling, screw, block and hose; the drive is left out, as Fig. 1 leaves it out",
 }
 
 
@@ -77,15 +78,15 @@ def prehydra() -> HydrostaticActuator:
 
     return HydrostaticActuator(
         name="PREHydrA",
-        motor=Motor(592.0, 0.84, 2.7, 0.61, 13.0, 1.6e-5, 290.0),
+        motor=Motor(592.0, 0.84, 2.7, 0.61, 13.0, 1.6e-5, 290.0, mass=1.1),
         drive=Drive(math.tau * 80, 20e-3, 1e-3, 1e-3),
-        coupling=Coupling(3e-6),
-        ball_screw=BallScrew(5e-3, 0.9, 9.6e-6),
+        coupling=Coupling(3e-6, 0.03),
+        ball_screw=BallScrew(5e-3, 0.9, 9.6e-6, 0.5),
         input_cylinder=cylinder("input_cylinder", 0.24),
         port=ports,
         fitting=ports,
-        hose=Hose(6.35e-3, 0.5, 1.5e-6),
-        block=PressureBlock(ports, 5e-6),
+        hose=Hose(6.35e-3, 0.5, 1.5e-6, linear_mass=0.1),
+        block=PressureBlock(ports, 5e-6, 0.1),
         output_cylinder=cylinder("output_cylinder", 0.45),
         return_element=LinearReturn(2840.0, 45.0, 0.15),
         fluid=Fluid(

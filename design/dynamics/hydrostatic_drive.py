@@ -83,23 +83,23 @@ def simulate(actuator: HydrostaticActuator, signal: ForceReference, duration: fl
     periods = math.ceil(duration / period - 1e-9)
     count = periods * steps
     h = period / steps
-    record = _Record(np.empty((count + 1, 4)), np.empty((count, 8)), np.empty((count + 1, 3)))
-    _run(chain, signal, record, steps, h)
+    record = _run(chain, signal, periods, steps, h)
+    motion, means = np.array(record.motion), np.array(record.means)
     time = h * np.arange(count + 1, dtype=np.float64)
     return DriveRun(
         chain,
         signal,
         h,
         time,
-        record.motion[:, :2],
-        record.motion[:, 2:],
-        record.content,
-        record.means[:, :3],
-        record.means[:, 3:5],
-        record.means[:, 5:7],
-        record.means[:, 7],
+        motion[:, :2],
+        motion[:, 2:],
+        np.array(record.content),
+        means[:, :3],
+        means[:, 3:5],
+        means[:, 5:7],
+        means[:, 7],
         value(signal, time),
-        _read(chain, record.motion[:, 3]),
+        _read(chain, motion[:, 3]),
     )
 
 
@@ -140,19 +140,19 @@ def _read(chain: Network, way: Floats) -> Floats:
     return np.array([chain.return_force(float(x)) for x in way])
 
 
-@dataclass(slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False)
 class _Record:
-    """What `_run` fills, as `DriveRun` holds it."""
+    """What `DriveRun` holds, step by step: speeds and ways, contents, and means."""
 
-    motion: Floats
-    means: Floats
-    content: Floats
+    motion: list[tuple[float, ...]]
+    content: list[tuple[float, ...]]
+    means: list[tuple[float, ...]]
 
 
-def _run(chain: Network, signal: ForceReference, record: _Record, steps: int, h: float) -> None:
-    """Fills the record, control period by control period."""
+def _run(chain: Network, signal: ForceReference, periods: int, steps: int, h: float) -> _Record:
+    """Control period by control period."""
     actuator = chain.actuator
-    drive, period, periods = actuator.drive, actuator.drive.force_period, (len(record.motion) - 1) // steps
+    drive, period = actuator.drive, actuator.drive.force_period
     times = period * np.arange(periods, dtype=np.float64)
     ahead, wanted_force = feed_forward(chain, signal, times).tolist(), value(signal, times).tolist()
     lower, fastest = 1 / actuator.hydraulic_ratio, actuator.maximum_velocity
@@ -162,8 +162,7 @@ def _run(chain: Network, signal: ForceReference, record: _Record, steps: int, h:
     whole, late = divmod(drive.delay / h, steps)
     whole = int(whole)
     lowest = actuator.fluid.vapour_pressure - STANDARD_ATMOSPHERE
-    record.motion[0] = motion.first, motion.second, motion.way_1, motion.way_2
-    record.content[0] = motion.content
+    record = _Record([(motion.first, motion.second, motion.way_1, motion.way_2)], [motion.content], [])
     for sample in range(periods):
         way = motion.way_2
         _check_stroke(stroke, way, times[sample])
@@ -176,9 +175,10 @@ def _run(chain: Network, signal: ForceReference, record: _Record, steps: int, h:
             advance(motion, before + share * (now - before))
             if min(motion.mean[:3]) < lowest:
                 chain.check_pressures(np.array(motion.mean[:3]), h * k)
-            record.motion[k + 1] = motion.first, motion.second, motion.way_1, motion.way_2
-            record.content[k + 1] = motion.content
-            record.means[k] = (*motion.mean[:5], motion.friction_1, motion.friction_2, motion.force)
+            record.motion.append((motion.first, motion.second, motion.way_1, motion.way_2))
+            record.content.append(motion.content)
+            record.means.append((*motion.mean[:5], motion.friction_1, motion.friction_2, motion.force))
+    return record
 
 
 def _check_stroke(stroke: float, way: float, time: float) -> None:

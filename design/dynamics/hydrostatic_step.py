@@ -36,7 +36,7 @@ SMALL_PRESSURE, SMALL_FLOW = 300.0, 1e-7
 """Pa and m^3/s: Newton's last corrections, whose squares are what is left: 0.2 Pa at the least absolute pressures, and
 0.1 Pa of a drop of some thousands."""
 
-SMALL_FORCE = 1e-5
+SMALL_FORCE = 1e-4
 """N, by which one piston's equation may be off by what the other's velocity changed at last."""
 
 TENSION = -0.5 * STANDARD_ATMOSPHERE
@@ -114,9 +114,10 @@ def stepper(network: Network, loop: Loop, step: float) -> Callable[[Motion, floa
     k_p, k_i, limit = loop.gain, loop.integral_gain, loop.limit
 
     def advance(motion: Motion, wanted: float) -> None:
-        p_a, p_m, p_b, q_1, q_2, v_1, v_2 = (
-            2 * now - then for now, then in zip(motion.mean, motion.earlier, strict=True)
-        )
+        p_a, p_m, p_b, q_1, q_2, v_1, v_2 = motion.mean
+        then_a, then_m, then_b, then_1, then_2, slow_1, slow_2 = motion.earlier
+        p_a, p_m, p_b = 2 * p_a - then_a, 2 * p_m - then_m, 2 * p_b - then_b
+        q_1, q_2, v_1, v_2 = 2 * q_1 - then_1, 2 * q_2 - then_2, 2 * v_1 - slow_1, 2 * v_2 - slow_2
         if p_a < TENSION or p_m < TENSION or p_b < TENSION:
             p_a, p_m, p_b = motion.mean[:3]
         n_a, n_m, n_b = motion.content

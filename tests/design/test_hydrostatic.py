@@ -13,6 +13,7 @@ from fluxbore.design.hydrostatic_figures import (
     burst_factor,
     distal_mass,
     fluid_temperature,
+    force_density,
     force_efficiency,
     force_frequency_limit,
     friction_at,
@@ -49,7 +50,9 @@ def test_published_figures(actuator: HydrostaticActuator) -> None:
     shares = force_efficiency(actuator, 300.0, 0.45, 26e5)
     assert shares.one_cylinder == pytest.approx(0.87, abs=0.005)
     assert shares.both_cylinders == pytest.approx(0.766, abs=0.002)
-    assert distal_mass(actuator) == pytest.approx(0.5, abs=0.01)
+    assert distal_mass(actuator) == pytest.approx(0.5, abs=0.05)
+    assert force_density(actuator).distal == pytest.approx(2000, rel=0.1)
+    assert force_density(actuator).total < 500
     assert 1e3 < pushing_force(actuator, 0.45) < pushing_force(actuator, 0.0)
 
 
