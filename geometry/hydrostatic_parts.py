@@ -20,11 +20,15 @@ from fluxbore.geometry.assembly import Assembly, Colour, Hole, Part, rectangle
 from fluxbore.geometry.gland_profile import ring_profile
 from fluxbore.geometry.hydrostatic_layout import RELIEF, SHANK, CylinderLayout, layout
 from fluxbore.geometry.mass import part_masses, total
+from fluxbore.geometry.measure import Measure, along, diameter
 
 OUTPUT = "output_cylinder"
 
 RING_MATERIAL, SCREW_MATERIAL = "NBR 70", "stainless steel 304"
 """Of the O-ring and the bleed screw, as they are bought."""
+
+NIPPLE_END = 1.9
+"""Thread diameters that the bleed screw sticks out by."""
 
 SLACK = 1e-9
 """m; rounding allowed where a position is compared with the ends of the stroke."""
@@ -63,6 +67,7 @@ def assembly(design: HydrostaticDesign, position: float, cylinder: str = OUTPUT)
             _rod(place, shape.rod, position),
         ),
         position,
+        measures=_measures(place, position),
     )
 
 
@@ -109,7 +114,7 @@ def _bleed_screw(place: CylinderLayout) -> Part:
     slim, bore = SHANK * wide, 0.15 * wide
     cone = place.z_seat - (slim - place.r_neck)
     thread, cross = cone - RELIEF * wide, cone - RELIEF * wide / 2
-    hexagon, nipple, end = (outside - share * wide for share in (0.3, 0.9, 1.9))
+    hexagon, nipple, end = (outside - share * wide for share in (0.3, 0.9, NIPPLE_END))
     profile = (
         (0.0, cross),
         (bore, cross),
@@ -186,6 +191,34 @@ def _rod(place: CylinderLayout, material: str, position: float) -> Part:
         (0.0, start + place.rod_length),
     )
     return Part("rod", "rod", "mover", material, COLOURS["rod"], profile)
+
+
+def _measures(place: CylinderLayout, position: float) -> tuple[Measure, ...]:
+    """What the cylinder is made by; those across stand in the empty chamber and at both ends."""
+    back, (left, right), (cap, front) = position + place.piston_length, place.ends, place.tube
+    middle, half = position + place.piston_length / 2, place.gland.groove_width / 2
+    end = back - place.rod_seat + place.rod_length
+    out, floor, step = place.r_outside, place.gland.groove_diameter / 2, position / 4
+    screw, room = left - NIPPLE_END * 2 * place.r_thread, place.r_outside * 0.6  # room : between lines across
+    return (
+        along("groove width", middle - half, middle + half, floor, 1),
+        along("cap length, cap end", left, cap, out, 1),
+        along("cap length, rod end", front, right, out, 1),
+        along("spigot, cap end", cap, 0.0, place.r_bore, 2),
+        along("spigot, rod end", place.z_front, front, place.r_bore, 2),
+        along("piston length", position, back, place.r_piston, 2),
+        along("stroke", 0.0, place.stroke, place.r_bore, 3),
+        along("tube length", cap, front, out, 4),
+        along("length over the caps", left, right, out, 5),
+        along("rod length", end - place.rod_length, end, place.r_rod, 6),
+        diameter("bore", place.r_bore, 2 * step, 2 * step),
+        diameter("groove diameter", floor, middle - half, 3 * step),
+        Measure("wall", (step, place.r_bore), (step, out), across=True, place=step),
+        diameter("outside diameter", out, left, screw - 2 * room),
+        diameter("bleed screw's thread", place.r_thread, left, screw - room),
+        diameter("rod diameter", place.r_rod, end, end + room),
+        Measure("port", (place.z_port - place.r_port, out), (place.z_port + place.r_port, out), place=-1),
+    )
 
 
 def _thread(diameter: float) -> str:

@@ -1,4 +1,4 @@
-"""Which STEP files of a folder are fluxbore's own: those it replaces and removes, others never."""
+"""Which CAD files of a folder are fluxbore's own: those it replaces and removes, others never."""
 
 from __future__ import annotations
 
@@ -23,6 +23,9 @@ _OURS = re.compile(rb"FILE_NAME\s*\(.*'fluxbore(?: [^']*)?'\s*,\s*'[^']*'\s*\)\s
 """FILE_NAME ends with the originating system and the authorisation (ISO 10303-21); a program that saves the file
 again puts its own name there."""
 
+_OURS_DXF = re.compile(rb"999\r?\nfluxbore(?: [^\n]*)?\n")
+"""A comment before the first section; a program that saves the file again leaves it out."""
+
 _SCRATCH = re.compile(r"\.step-(\d{1,9})-\w+")
 
 
@@ -33,22 +36,23 @@ def scratch_prefix() -> str:
 
 def is_own(path: Path) -> bool:
     """Whether fluxbore wrote this file, by its header."""
-    if path.suffix != ".step" or not path.is_file():
+    if path.suffix not in (".step", ".dxf") or not path.is_file():
         return False
     with path.open("rb") as file:
-        return _OURS.search(file.read(_HEADER)) is not None
+        head = file.read(_HEADER)
+    return _OURS.search(head) is not None if path.suffix == ".step" else _OURS_DXF.match(head) is not None
 
 
-def own_files(folder: Path) -> list[Path]:
-    """Fluxbore's STEP files in the folder itself; none where it does not exist."""
-    return sorted(path for path in folder.glob("*.step") if is_own(path))
+def own_files(folder: Path, suffix: str = ".step") -> list[Path]:
+    """Fluxbore's STEP files, or DXF files, in the folder itself; none where it does not exist."""
+    return sorted(path for path in folder.glob(f"*{suffix}") if is_own(path))
 
 
 def remove_own(folder: Path) -> None:
-    """Remove what `fluxbore.geometry.step.write_step` wrote into the folder, and the folder where that was all."""
+    """Remove the STEP and DXF files that fluxbore wrote into the folder, and the folder where that was all."""
     remove_stale(folder)
     for room in (folder / PARTS, folder):
-        for path in own_files(room):
+        for path in (*own_files(room), *own_files(room, ".dxf")):
             path.unlink()
         with contextlib.suppress(OSError):  # somebody else's files are in it, or it does not exist
             room.rmdir()

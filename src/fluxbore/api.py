@@ -15,12 +15,13 @@ from fluxbore.design.spec import Spec
 from fluxbore.design_result import DesignResult, judged
 from fluxbore.design_steps import every_design, search_design, with_front, with_tolerances
 from fluxbore.evaluating import evaluate
+from fluxbore.geometry.step_files import own_files
 from fluxbore.identifying import identify
 from fluxbore.optimize.evaluate import evaluate as evaluate_design
 from fluxbore.optimize.evaluation import Evaluation
 from fluxbore.optimize.evaluator import Evaluator
 from fluxbore.optimize.executor import Executor
-from fluxbore.optimize.folder import open_folder
+from fluxbore.optimize.folder import Folder, open_folder
 from fluxbore.optimize.journal import Journal
 from fluxbore.optimize.progress import Report as ProgressReport
 from fluxbore.optimize.search import check_study, one_at_a_time
@@ -57,9 +58,10 @@ Say = Callable[[str], None]
 
 
 def export(
-    spec: Spec | Path | str, folder: Path | str, *, force: bool = False, form: Literal["step", "fem"] = "step"
+    spec: Spec | Path | str, folder: Path | str, *, force: bool = False, form: Literal["step", "dxf", "fem"] = "step"
 ) -> list[Path]:
-    """Write the design as STEP, the assembly and a file for each part in ``parts``; or as a FEMM model of its field.
+    """Write the design as STEP, the assembly and a file for each part in ``parts``; as the drawing of its section in
+    DXF; or as a FEMM model of its field.
 
     Raises MissingLibraryError where cadquery or libGL is missing, with the line that installs it; OutputError where
     the folder holds other files and is not to be taken by ``force``; SpecError for a kind of actuator without a model.
@@ -67,6 +69,8 @@ def export(
     spec = as_spec(spec)
     if form == "fem":
         return [_write_femm(spec, folder, force)]
+    if form == "dxf":
+        return [_write_dxf(spec, folder, force)]
     from fluxbore.geometry.solid import load_cadquery
 
     load_cadquery()  # before the folder is touched: without it there is nothing to write
@@ -135,8 +139,9 @@ def design(
             files.append(shop.folder.write(DESIGN_FILE, design_text(found.spec)))
             try:
                 files += _write_cad(found.spec, shop.folder.path / CAD_FOLDER)
+                files += _write_drawing(found.spec, shop.folder)
             except FluxboreError as error:
-                found = replace(found, warnings=(*found.warnings, f"No STEP files: {error}"))
+                found = replace(found, warnings=(*found.warnings, f"No CAD files: {error}"))
         replayed = found.search is not None and found.search.replayed
         seconds = None if replayed else monotonic() - begin
         files.append(
@@ -162,6 +167,31 @@ def _write_cad(spec: Spec, folder: Path) -> list[Path]:
     from fluxbore.geometry.step import write_step
 
     return write_step(actuator_of(spec).assembly(spec), folder)
+
+
+def _write_drawing(spec: Spec, folder: Folder) -> list[Path]:
+    """The section beside the STEP files, where the parts say how they are dimensioned."""
+    assembly = actuator_of(spec).assembly(spec)
+    if not assembly.measures:
+        return []
+    from fluxbore.geometry.drawing import dxf_text
+    from fluxbore.geometry.step import file_name
+
+    name = f"{file_name(assembly.name)}.dxf"
+    for path in own_files(folder.path / CAD_FOLDER, ".dxf"):
+        if path.name != name:
+            path.unlink()
+    return [folder.write(f"{CAD_FOLDER}/{name}", dxf_text(assembly, spec.materials))]
+
+
+def _write_dxf(spec: Spec, folder: Path | str, force: bool) -> Path:
+    from fluxbore.geometry.drawing import dxf_text
+    from fluxbore.geometry.step import file_name
+
+    assembly = actuator_of(spec).assembly(spec)
+    text = dxf_text(assembly, spec.materials)
+    with open_folder(folder, spec, force) as place:
+        return place.write(f"{file_name(assembly.name)}.dxf", text)
 
 
 def _write_femm(spec: Spec, folder: Path | str, force: bool) -> Path:

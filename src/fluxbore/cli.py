@@ -96,9 +96,9 @@ def _parser() -> argparse.ArgumentParser:
     for commands_of in (study_command, simulate_command, identify_command):
         commands_of.add_to(lambda name, run, text: add(name, answering(run), text))
 
-    export = with_spec(add("export", _export, "write the design as STEP files or as a FEMM model"))
+    export = with_spec(add("export", _export, "write the design as STEP files, a DXF section or a FEMM model"))
     export.add_argument("-o", "--output", metavar="DIR", type=path_name, required=True, help="folder for the files")
-    export.add_argument("--format", choices=("step", "fem"), default="step", help="default: step")
+    export.add_argument("--format", choices=("step", "dxf", "fem"), default="step", help="default: step")
     export.add_argument("--force", action="store_true", help="take a folder that holds other files")
     export.add_argument("--json", action="store_true", help="print JSON")
 

@@ -1,0 +1,70 @@
+"""What a drawing of an assembly is dimensioned by: distances in the plane of its section."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from fluxbore.geometry.assembly import Body, Point
+
+FEW = 6
+"""Parts that are measured one by one."""
+
+
+@dataclass(frozen=True, slots=True)
+class Measure:
+    """A distance between two points of the section's plane, (z, y') in m.
+
+    name : what it is, for whoever reads the file. across : measured across the axis; else along it. place : where its
+    line stands, z (m) of one across; of one along the axis the row below the drawing, from 1, or above it, from -1.
+    sign : before the number, as DXF writes it.
+    """
+
+    name: str
+    start: Point
+    end: Point
+    across: bool = False
+    place: float = 1.0
+    sign: str = ""
+
+    @property
+    def length(self) -> float:
+        """m."""
+        i = 1 if self.across else 0
+        return abs(self.end[i] - self.start[i])
+
+
+def along(name: str, low: float, high: float, radius: float, row: int) -> Measure:
+    """From z to z (m), measured at the lower half of a part of this radius (m)."""
+    return Measure(name, (low, -radius), (high, -radius), place=row)
+
+
+def diameter(name: str, radius: float, at: float, place: float) -> Measure:
+    """Of what has this radius at the height z = `at` (m)."""
+    return Measure(name, (at, -radius), (at, radius), across=True, place=place, sign="%%c")
+
+
+def overall(parts: Sequence[Body], gap: float) -> tuple[Measure, ...]:
+    """Length and diameter of every kind of part (m), for an assembly that says nothing of its own.
+
+    gap : between two lines across, to the left of the drawing (m). Of more than `FEW` parts the first of each role
+    stands for all; what is as long at the same place, or as wide, is measured once.
+    """
+    firsts: dict[str, Body] = {}
+    for part in parts:
+        firsts.setdefault(part.name if len(parts) <= FEW else part.role, part)
+    spans: dict[tuple[float, float], tuple[str, float]] = {}
+    circles: dict[float, float] = {}
+    for name, part in firsts.items():
+        heights = [z for _, z in part.profile]
+        outer, at = max(part.profile)
+        spans.setdefault((min(heights), max(heights)), (f"length, {name}", outer))
+        circles.setdefault(outer, at)
+    left = min(z for part in parts for _, z in part.profile)
+    by_length = sorted(spans.items(), key=lambda item: item[0][1] - item[0][0])
+    return (
+        *(along(name, low, high, outer, row) for row, ((low, high), (name, outer)) in enumerate(by_length, 1)),
+        *(diameter("diameter", r, circles[r], left - gap * place) for place, r in enumerate(sorted(circles), 1)),
+    )
