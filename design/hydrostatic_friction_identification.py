@@ -9,8 +9,9 @@ the standard errors are those of the pseudo-residuals K psi(r)/mean psi', K = 1 
 normal scatter are a few per cent above those of least squares.
 
 The Stribeck force fades within 3/c, 25 mm/s for Table I. Of speeds evenly spaced to 0.45 m/s one or two lie there, and
-neither c nor F_S0 is told from what is left; spaced geometrically from 1 mm/s, half of them do. f_C is told by pressures that
-differ at alike speeds; the paper found it apart and gives it no error: `known_pressure_coefficient` does the same.
+neither c nor F_S0 is told from what is left; spaced geometrically from 1 mm/s, half of them do. f_C is told by
+pressures that differ at alike speeds; the paper found it apart and gives it no error: `known_pressure_coefficient` does
+the same.
 """
 
 from __future__ import annotations
