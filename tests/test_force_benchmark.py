@@ -54,6 +54,18 @@ def test_the_only_benchmark_needs_no_name_and_no_seeds(result):
     assert "seed" not in text.splitlines()[0]
 
 
+def test_seeds_without_chance_are_refused():
+    """Catches five equal runs, and their median told as if it were one of different ones."""
+    with pytest.raises(
+        fluxbore.FluxboreError, match=r"^seeds must be 1 for the benchmark force, .* by chance; got 5\.$"
+    ):
+        fluxbore.simulate(EXAMPLE, seeds=5)
+    with pytest.raises(
+        fluxbore.FluxboreError, match=r"^benchmark must be one of force for .* lead-screw; got \"mcfc\""
+    ):
+        fluxbore.simulate(EXAMPLE, "mcfc")
+
+
 def test_what_is_identified_from_the_field(figures):
     assert figures["harmonic_ratio_2"] == pytest.approx(0.0158, abs=0.0002)
     assert figures["harmonic_ratio_3"] == pytest.approx(0.00080, abs=0.00002)

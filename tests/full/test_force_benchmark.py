@@ -18,7 +18,7 @@ pytestmark = pytest.mark.full
 
 TOP = Path(__file__).parents[2]
 EXAMPLE = TOP / "examples" / "rotlin.toml"
-SHORT = ("--set", "benchmark.force.duration=1 s", "--set", "benchmark.force.frequency=1 Hz")
+SHORT = ("--set", "benchmark.force.duration=2 s", "--set", "benchmark.force.frequency=0.5 Hz")
 RUN = ("--fidelity", "network", "--workers", "1", "--quiet", "--no-picture")
 
 
