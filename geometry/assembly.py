@@ -19,7 +19,7 @@ from fluxbore.design.errors import DesignError
 from fluxbore.geometry import helical_part
 from fluxbore.geometry.helical_clearance import overlap as helical_overlap
 from fluxbore.geometry.helical_part import RESOLUTION, HelicalPart
-from fluxbore.geometry.measure import Measure
+from fluxbore.geometry.measure import Detail, Measure
 
 Point = tuple[float, float]
 """(r, z) in metres."""
@@ -84,7 +84,8 @@ class Assembly:
 
     squeezes : pairs of part names that are drawn overlapping on purpose, because one of them yields.
     outside : the group that pictures cut open. carried_mass : kg, of what moves with the mover and is not drawn.
-    measures : what a drawing is dimensioned by; none stands for the sizes of every kind of part.
+    measures : what a drawing is dimensioned by; none stands for the sizes of every kind of part. details : what it
+    shows again, larger.
     """
 
     name: str
@@ -94,6 +95,7 @@ class Assembly:
     outside: str = "stator"
     carried_mass: float = 0.0
     measures: tuple[Measure, ...] = ()
+    details: tuple[Detail, ...] = ()
 
     def part(self, name: str) -> Body:
         return next(part for part in self.parts if part.name == name)

@@ -18,22 +18,15 @@ from typing import Any
 
 from fluxbore.design.errors import MissingLibraryError
 from fluxbore.design.materials import Material
-from fluxbore.geometry.assembly import Assembly, Body, Part
+from fluxbore.geometry.assembly import Assembly, Body
+from fluxbore.geometry.drawing_detail import add_detail
+from fluxbore.geometry.drawing_lines import APPLICATION, MM, add_dimension, add_hatch, in_mm
 from fluxbore.geometry.drawing_sheet import add_sheet, program
 from fluxbore.geometry.measure import Measure, overall
 from fluxbore.geometry.section import face, rims_beside, seen_behind
 
-MM = 1e3
-"""Millimetres in a metre."""
-
-APPLICATION = "FLUXBORE"
-"""Under which the name of a dimension stands in its extended data."""
-
 TEXT_SHARE = 1 / 110
 """Height of the text over the longest side of the assembly: 2.5 mm on 275 mm."""
-
-NARROW = 4e-6
-"""m^2; smaller sections are filled, not hatched."""
 
 LAYERS = {
     "OUTLINE": (7, "Continuous", 50),
@@ -72,7 +65,7 @@ def dxf_document(assembly: Assembly, materials: Mapping[str, Material]) -> Any:
     for number, part in enumerate(assembly.parts):
         _add_part(space, part, number, size)
     for line in seen_behind(assembly):
-        space.add_lwpolyline(_mm(line), dxfattribs={"layer": "EDGES"})
+        space.add_lwpolyline(in_mm(line), dxfattribs={"layer": "EDGES"})
     for rim in rims_beside(assembly):
         (z, y), along, across = rim.centre, rim.along, max(rim.across, 1e-6 * rim.along)
         major, ratio = ((along, 0.0), across / along) if along >= across else ((0.0, across), along / across)
@@ -80,9 +73,12 @@ def dxf_document(assembly: Assembly, materials: Mapping[str, Material]) -> Any:
     space.add_line((low * MM - 3 * size, 0), (high * MM + 3 * size, 0), dxfattribs={"layer": "CENTRE"})
     measures = assembly.measures or overall(assembly.parts, 3.5 * size / MM)
     for measure in measures:
-        _add_dimension(space, measure, reach * MM, size)
+        _add_measure(space, measure, reach * MM, size)
     rows = [measure.place for measure in measures if not measure.across]
     above, below = (reach * MM + (3 * max(side * row for row in (0, *rows)) + 5) * size for side in (-1, 1))
+    right = high * MM + 8 * size
+    for detail in assembly.details:
+        right = add_detail(space, assembly, detail, (right, -below), size)
     add_sheet(space, assembly, materials, (above, -below), size)
     document.set_modelspace_vport(
         height=1.2 * max(high - low, 4 * reach) * MM, center=((low + high) / 2 * MM, -reach * MM)
@@ -106,37 +102,12 @@ def _extent(assembly: Assembly) -> tuple[float, float, float]:
     return min(heights), max(heights), max(r for r, _ in points)
 
 
-def _mm(points: Any) -> list[tuple[float, float]]:
-    return [(z * MM, y * MM) for z, y in points]
-
-
 def _add_part(space: Any, part: Body, number: int, size: float) -> None:
-    """Outline and hatch; neighbours' hatches lean to opposite sides."""
     found = face(part)
     for polygon in getattr(found, "geoms", (found,)):
-        if polygon.geom_type != "Polygon":
-            continue
-        rings = [_mm(ring.coords[:-1]) for ring in (polygon.exterior, *polygon.interiors)]
-        for ring in rings:
-            space.add_lwpolyline(ring, close=True, dxfattribs={"layer": "OUTLINE"})
-        if _is_bar(part):
-            continue
-        hatch = space.add_hatch(color=256, dxfattribs={"layer": "HATCH"})
-        if polygon.area < NARROW:
-            hatch.set_solid_fill(color=256)
-        else:
-            hatch.set_pattern_fill("ANSI31", scale=0.2 * size * (1 + 0.15 * (number % 3)), angle=90 * (number % 2))
-        for place, ring in enumerate(rings):
-            hatch.paths.add_polyline_path(ring, is_closed=True, flags=0 if place else 1)
-
-
-def _is_bar(part: Body) -> bool:
-    """Whether the part is solid all along its axis."""
-    if not isinstance(part, Part) or part.holes:
-        return False
-    heights = [z for _, z in part.profile]
-    on_axis = [z for r, z in part.profile if r == 0]
-    return bool(on_axis) and max(on_axis) == max(heights) and min(on_axis) == min(heights) and len(on_axis) == 2
+        for ring in (polygon.exterior, *polygon.interiors):
+            space.add_lwpolyline(in_mm(ring.coords[:-1]), close=True, dxfattribs={"layer": "OUTLINE"})
+        add_hatch(space, part, number, polygon, size)
 
 
 def _add_style(document: Any, size: float) -> None:
@@ -162,19 +133,9 @@ def _add_style(document: Any, size: float) -> None:
     )
 
 
-def _add_dimension(space: Any, measure: Measure, reach: float, size: float) -> None:
-    """A DIMENSION entity; its line stands at a height z, or in a row below or above the drawing, `reach` (mm) high."""
-    start, end = _mm((measure.start, measure.end))
+def _add_measure(space: Any, measure: Measure, reach: float, size: float) -> None:
+    """Its line stands at a height z, or in a row below or above the drawing, which is `reach` (mm) high."""
     side = 1 if measure.place < 0 else -1
     row = side * (reach + 3 * abs(measure.place) * size)
-    made = space.add_linear_dim(
-        base=(measure.place * MM, 0.0) if measure.across else (0.0, row),
-        p1=start,
-        p2=end,
-        angle=90 if measure.across else 0,
-        dimstyle=APPLICATION,
-        override={"dimpost": f"{measure.sign}<>"} if measure.sign else {},
-        dxfattribs={"layer": "DIMENSIONS"},
-    )
-    made.dimension.set_xdata(APPLICATION, [(1000, measure.name)])
-    made.render()
+    start, end = in_mm((measure.start, measure.end))
+    add_dimension(space, measure, start, end, measure.place * MM if measure.across else row)

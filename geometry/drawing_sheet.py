@@ -10,10 +10,9 @@ from fluxbore.design.errors import one_line
 from fluxbore.design.materials import Material
 from fluxbore.design.units import format_quantity
 from fluxbore.geometry.assembly import Assembly, Body
+from fluxbore.geometry.drawing_lines import MM, add_text
 from fluxbore.geometry.mass import part_masses
 from fluxbore.geometry.section import face
-
-MM = 1e3
 
 HEAD = ("no.", "pieces", "part", "material", "mass", "note")
 
@@ -93,7 +92,7 @@ def _add_numbers(space: Any, rows: Sequence[Item], height: float, size: float) -
         last = place
         space.add_line((z, y), (place, height), dxfattribs={"layer": "DIMENSIONS"})
         space.add_circle((z, y), 0.2 * size, dxfattribs={"layer": "DIMENSIONS"})
-        _add_text(space, str(number), (place, height + 0.6 * size), 1.4 * size, centred=True)
+        add_text(space, str(number), (place, height + 0.6 * size), 1.4 * size, centred=True)
 
 
 def _add_table(
@@ -114,15 +113,8 @@ def _add_table(
         space.add_line((x, top), (x, bottom), dxfattribs={"layer": "SHEET"})
         for number, row in enumerate(cells):
             if i < len(row):
-                _add_text(space, row[i], (x + size, top - (number + 0.75) * line), size)
+                add_text(space, row[i], (x + size, top - (number + 0.75) * line), size)
         x += width
-
-
-def _add_text(space: Any, text: str, place: tuple[float, float], size: float, *, centred: bool = False) -> None:
-    from ezdxf.enums import TextEntityAlignment
-
-    entity = space.add_text(text, height=size, dxfattribs={"layer": "TEXT"})
-    entity.set_placement(place, align=TextEntityAlignment.CENTER if centred else TextEntityAlignment.LEFT)
 
 
 def program() -> str:

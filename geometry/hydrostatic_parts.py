@@ -20,7 +20,7 @@ from fluxbore.geometry.assembly import Assembly, Colour, Hole, Part, rectangle
 from fluxbore.geometry.gland_profile import ring_profile
 from fluxbore.geometry.hydrostatic_layout import RELIEF, SHANK, CylinderLayout, layout
 from fluxbore.geometry.mass import part_masses, total
-from fluxbore.geometry.measure import Measure, along, diameter
+from fluxbore.geometry.measure import Detail, Measure, along, diameter
 
 OUTPUT = "output_cylinder"
 
@@ -68,6 +68,7 @@ def assembly(design: HydrostaticDesign, position: float, cylinder: str = OUTPUT)
         ),
         position,
         measures=_measures(place, position),
+        details=(_gland_detail(place, position),),
     )
 
 
@@ -201,7 +202,6 @@ def _measures(place: CylinderLayout, position: float) -> tuple[Measure, ...]:
     out, floor, step = place.r_outside, place.gland.groove_diameter / 2, position / 4
     screw, room = left - NIPPLE_END * 2 * place.r_thread, place.r_outside * 0.6  # room : between lines across
     return (
-        along("groove width", middle - half, middle + half, floor, 1),
         along("cap length, cap end", left, cap, out, 1),
         along("cap length, rod end", front, right, out, 1),
         along("spigot, cap end", cap, 0.0, place.r_bore, 2),
@@ -219,6 +219,21 @@ def _measures(place: CylinderLayout, position: float) -> tuple[Measure, ...]:
         diameter("rod diameter", place.r_rod, end, end + room),
         Measure("port", (place.z_port - place.r_port, out), (place.z_port + place.r_port, out), place=-1),
     )
+
+
+def _gland_detail(place: CylinderLayout, position: float) -> Detail:
+    """The O-ring in its groove: width, depth to the bore, and the gap that it must bridge."""
+    middle, half = position + place.piston_length / 2, place.gland.groove_width / 2
+    floor, bore = place.gland.groove_diameter / 2, place.r_bore
+    height = bore - floor
+    reach = 1.3 * math.hypot(half, height)
+    gap = middle + half + 0.3 * half
+    measures = (
+        Measure("groove width", (middle - half, floor), (middle + half, floor), place=floor - 0.3 * height),
+        Measure("groove depth to the bore", (middle - half, floor), (middle - half, bore), True, middle - 1.4 * half),
+        Measure("piston clearance", (gap, place.r_piston), (gap, bore), across=True, place=middle + 1.4 * half),
+    )
+    return Detail("A", (middle, (floor + bore) / 2), reach, measures)
 
 
 def _thread(diameter: float) -> str:

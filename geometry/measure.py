@@ -36,6 +36,19 @@ class Measure:
         return abs(self.end[i] - self.start[i])
 
 
+@dataclass(frozen=True, slots=True)
+class Detail:
+    """What is shown again, larger: a circle of the section about (z, y') with a radius `reach` (m).
+
+    measures : with the places of their lines in m, z of one across the axis and y' of one along it.
+    """
+
+    name: str
+    centre: Point
+    reach: float
+    measures: tuple[Measure, ...] = ()
+
+
 def along(name: str, low: float, high: float, radius: float, row: int) -> Measure:
     """From z to z (m), measured at the lower half of a part of this radius (m)."""
     return Measure(name, (low, -radius), (high, -radius), place=row)
