@@ -142,7 +142,7 @@ ARGUMENTS = {
     "": ["COMMAND"],
     "fly": ["invalid choice: 'fly'"],
     "new": ["TEMPLATE"],
-    "new nope": ["There is a template for ipehla, rotlin", '; got "nope".'],
+    "new nope": ["There is a template for ipehla, prehydra, rotlin", '; got "nope".'],
     "check": ["SPEC"],
     "check none.toml": ["none.toml cannot be read: No such file or directory."],
     "check .": [". cannot be read: Is a directory."],

@@ -91,7 +91,7 @@ def search_text(spec: Spec, result: SearchResult) -> str:
     cost = f"{result.reused} of them from the journal" if result.replayed else f"in {result.seconds:.0f} s"
     lines = [
         _why(result),
-        f"Search{_algorithm(result)}: {len(result.history)} designs by {route(spec, 'fem')}{_network(result)}, {cost}.",
+        f"Search{_algorithm(result)}: {len(result.history)} designs by {route(spec, 'fem')}{_network(spec, result)}, {cost}.",
     ]
     lines += _failures(result)
     chosen = result.chosen
@@ -144,8 +144,8 @@ def _algorithm(result: SearchResult) -> str:
     return f" by {result.algorithm}" if result.algorithm else ""
 
 
-def _network(result: SearchResult) -> str:
-    return f" and {result.network_calls} by the magnetic network" if result.network_calls else ""
+def _network(spec: Spec, result: SearchResult) -> str:
+    return f" and {result.network_calls} by {route(spec, 'network')}" if result.network_calls else ""
 
 
 def _rounding(spec: Spec, result: SearchResult) -> list[str]:

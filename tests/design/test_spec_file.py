@@ -37,7 +37,7 @@ def again(spec: Spec) -> Spec:
 
 def test_the_template_is_the_example():
     """Catches an example that is mended and a template that is not; an installed wheel has the template alone."""
-    assert template_names() == ("ipehla", "rotlin", "team22")
+    assert template_names() == ("ipehla", "prehydra", "rotlin", "team22")
     for name in template_names():
         assert template(name) == (EXAMPLES / f"{name}.toml").read_text(encoding="utf-8")
         assert template(name).isascii()  # whatever encoding the terminal redirects in
@@ -45,7 +45,7 @@ def test_the_template_is_the_example():
 
 @pytest.mark.parametrize("name", ["", "nope", "../ipehla", "ipehla.toml"])
 def test_there_is_no_other_template(name):
-    with pytest.raises(SpecError, match=r"^There is a template for ipehla, rotlin, team22; got "):
+    with pytest.raises(SpecError, match=r"^There is a template for ipehla, prehydra, rotlin, team22; got "):
         template(name)
 
 
