@@ -44,7 +44,8 @@ def identified(law: CylinderFriction, stand: TrackingStand, seed: int) -> dict[s
     """The figures of one identification, JSON-ready.
 
     identified_friction : by parameter its value and standard error; where the seed's data do not tell the parameters it
-    is empty, and identification_refused says why. expected_standard_error : before measuring, by spacing and parameter.
+    is empty, and identification_refused says why. identified_friction_geometric : from as many speeds, spaced
+    geometrically. expected_standard_error : before measuring, by parameter.
     """
     expected = {
         spacing: {
@@ -53,21 +54,24 @@ def identified(law: CylinderFriction, stand: TrackingStand, seed: int) -> dict[s
         }
         for spacing in (EVEN, GEOMETRIC)
     }
-    found: dict[str, dict[str, float]] = {}
-    refused = None
-    try:
-        fit = identify_cylinder_friction(
-            friction_measurements(law, stand, seed), known_pressure_coefficient=law.pressure_coefficient
-        )
-        found = {
-            name: {"value": each.value, "standard_error": each.standard_error, "low": each.low, "high": each.high}
-            for name, each in fit.parameters.items()
-        }
-    except IdentificationError as error:
-        refused = str(error)
+    found, refused = _fit(law, friction_measurements(law, stand, seed))
+    geometric, _ = _fit(law, friction_measurements(law, stand, seed, GEOMETRIC))
     return {
         "identified_friction": found,
         "identification_refused": refused,
+        "identified_friction_geometric": geometric,
         "expected_standard_error": expected[stand.spacing],
         "expected_standard_error_geometric": expected[GEOMETRIC],
     }
+
+
+def _fit(law: CylinderFriction, points: FrictionPoints) -> tuple[dict[str, dict[str, float]], str | None]:
+    """The parameters, f_C taken as known; or none of them, and why."""
+    try:
+        fit = identify_cylinder_friction(points, known_pressure_coefficient=law.pressure_coefficient)
+    except IdentificationError as error:
+        return {}, str(error)
+    return {
+        name: {"value": each.value, "standard_error": each.standard_error, "low": each.low, "high": each.high}
+        for name, each in fit.parameters.items()
+    }, None

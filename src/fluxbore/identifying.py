@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -11,6 +11,7 @@ from fluxbore.design.errors import SpecError, shown
 from fluxbore.design.identification import Identified, check_level
 from fluxbore.design.spec import Spec, loads
 from fluxbore.design.spec_file import template
+from fluxbore.design.specification import KINDS
 from fluxbore.reading import as_spec
 
 if TYPE_CHECKING:
@@ -78,7 +79,7 @@ def identify(
     level: float = 0.95,
     free: Sequence[str] = (),
 ) -> Identification:
-    """The parameters of a model ("friction", "magnetic-spring") from a CSV file, with intervals at a confidence level.
+    """The parameters of a model ("friction", "cylinder-friction") from a CSV file, with intervals at a level.
 
     spec : the actuator that was measured; without it the model's template, if it has one. free : parameters that stay
     as they are unless asked for, such as "viscous_coefficient".
@@ -96,6 +97,7 @@ def identify(
     by, taken, own = _specified(known, spec)
     measured = known.read(data)
     found = known.fit(measured, by, level, free)
+    taken = {name: each for name, each in taken.items() if name not in free}
     given = {name: own[name] for name in (*found.parameters, *found.derived) if name in own}
     return Identification(known, found, by, spec is not None, len(measured), taken, given)
 
@@ -193,6 +195,43 @@ def _spring(
     )
 
 
+_CYLINDER_KEYS = {
+    name: f"actuator.friction.{name}"
+    for name in ("preload", "stribeck_force", "stribeck_decay", "viscous_coefficient", "pressure_coefficient")
+}
+
+
+def _read_cylinder(path: Path | str) -> Measurements:
+    from fluxbore.design.friction_points import COLUMNS
+    from fluxbore.design.measurements import read_measurements
+
+    return read_measurements(path, COLUMNS)
+
+
+def _own_cylinder(spec: Spec) -> Mapping[str, float]:
+    return {name: spec.number(key) for name, key in _CYLINDER_KEYS.items()}
+
+
+def _pressure_coefficient(spec: Spec) -> Mapping[str, tuple[float, str]]:
+    key = _CYLINDER_KEYS["pressure_coefficient"]
+    return {"pressure_coefficient": (spec.number(key), spec.kind.known(key).dimension)}
+
+
+def _fit_cylinder(measured: Measurements, spec: Spec | None, level: float, free: Sequence[str]) -> Identified:
+    from fluxbore.design.friction_points import friction_points
+    from fluxbore.design.hydrostatic_friction_identification import identify_cylinder_friction
+
+    taken = spec is not None and "pressure_coefficient" not in free
+    known = spec.number(_CYLINDER_KEYS["pressure_coefficient"]) if spec is not None and taken else None
+    found = identify_cylinder_friction(friction_points(measured), level=level, known_pressure_coefficient=known)
+    # In the dimensions of the specification's keys.
+    parameters = {
+        name: replace(each, dimension=KINDS["hydrostatic"].known(_CYLINDER_KEYS[name]).dimension)
+        for name, each in found.parameters.items()
+    }
+    return replace(found, parameters=parameters)
+
+
 _STALL = {"stall_force": "benchmark.force.stall_force"}
 _SINE = {"stall_force": "F_stall", "transfer_ratio": "h", "spring_constant": "F_stall/h", "pitch": "l_p"}
 
@@ -244,6 +283,21 @@ MODELS = {
             keys={"spring_constant": "benchmark.force.spring_constant"},
         ),
         _spring("magnetic-spring-polynomial", "polynomial", {"k1": "k_1", "k3": "k_3", "k5": "k_5"}),
+        Model(
+            name="cylinder-friction",
+            symbols={
+                "preload": "F_preload",
+                "stribeck_force": "F_S0",
+                "stribeck_decay": "c",
+                "viscous_coefficient": "f_v",
+                "pressure_coefficient": "f_C",
+            },
+            free=("pressure_coefficient",),
+            measured="force",
+            read=_read_cylinder,
+            fit=_fit_cylinder,
+            specified=Specified("hydrostatic", _CYLINDER_KEYS, _own_cylinder, taken=_pressure_coefficient),
+        ),
     )
 }
 """What `identify` knows, by name; another model is another line."""
