@@ -89,10 +89,8 @@ def _failures(result: SearchResult) -> list[str]:
 def search_text(spec: Spec, result: SearchResult) -> str:
     """Start and chosen design side by side, and why the search ended."""
     cost = f"{result.reused} of them from the journal" if result.replayed else f"in {result.seconds:.0f} s"
-    lines = [
-        _why(result),
-        f"Search{_algorithm(result)}: {len(result.history)} designs by {route(spec, 'fem')}{_network(spec, result)}, {cost}.",
-    ]
+    made = f"{len(result.history)} designs by {route(spec, 'fem')}{_network(spec, result)}"
+    lines = [_why(result), f"Search{_algorithm(result)}: {made}, {cost}."]
     lines += _failures(result)
     chosen = result.chosen
     if chosen is None:
