@@ -28,6 +28,9 @@ from fluxbore.design.errors import DesignError
 from fluxbore.design.fluid import Fluid
 from fluxbore.design.units import STANDARD_ATMOSPHERE
 
+SETTLED, SMALL_SPEED = 1e-9, 1e-7
+"""Last corrections of a piston's speed: a share of the linear piece's, and m/s, whose square is what is left."""
+
 FAR = 40.0
 """c |v| beyond which the Stribeck force is nothing."""
 
@@ -110,6 +113,7 @@ def stepper(network: Network, loop: Loop, step: float) -> Callable[[Motion, floa
     (drops_1, drops_2), places = tables(network)
     top = len(drops_1) - 2
     state = _equation_of_state(network.fluid)
+    slide_1, slide_2 = sliding(law_1), sliding(law_2)
     return_force, return_stiffness = network.return_force, network.return_stiffness
     k_p, k_i, limit = loop.gain, loop.integral_gain, loop.limit
 
@@ -182,8 +186,8 @@ def stepper(network: Network, loop: Loop, step: float) -> Callable[[Motion, floa
             for _ in range(3):
                 reach = (push_1 - cross_1 * guess) / inertia_1
                 screw = (driving if reach >= 0 else driven) * load
-                new_1, force_1 = slide(law_1, level_1 + screw, reach, 1 / inertia_1)
-                new_2, force_2 = slide(law_2, level_2, (push_2 - cross_2 * new_1) / inertia_2, 1 / inertia_2)
+                new_1, force_1 = slide_1(level_1 + screw, reach, 1 / inertia_1)
+                new_2, force_2 = slide_2(level_2, (push_2 - cross_2 * new_1) / inertia_2, 1 / inertia_2)
                 apart, guess = abs(cross_1 * (new_2 - guess)), new_2
                 if apart < SMALL_FORCE:
                     break
@@ -247,32 +251,34 @@ def _equation_of_state(fluid: Fluid) -> Callable[[float], tuple[float, float, fl
     return state
 
 
-def slide(law: CylinderFriction, coulomb: float, wanted: float, yielding: float) -> tuple[float, float]:
-    """Velocity v (m/s) and friction f (N) with v + yielding f(v) = wanted.
-
-    coulomb : the level at this pressure, in this direction (N). yielding : m/(N s) that a newton of friction takes off
-    the velocity, above zero.
-    """
+def sliding(law: CylinderFriction) -> Callable[[float, float, float], tuple[float, float]]:
+    """A function that gives the velocity v (m/s) and the friction f (N) with v + yielding f(v) = wanted, of the Coulomb
+    level in this direction (N), the wanted velocity (m/s), and yielding (m/(N s)), above zero."""
     v_0, stribeck, decay = law.linear_speed, law.stribeck_force, law.stribeck_decay
     viscous = law.viscous_coefficient
-    size = abs(wanted)
-    level = coulomb + stribeck * math.exp(-decay * v_0)
-    if size <= v_0 + yielding * (level + viscous * v_0):
-        v = size / (1 + yielding * (level / v_0 + viscous))
-        for _ in range(20):  # the Stribeck force changes by a hundredth over the linear piece
-            slope = (coulomb + stribeck * math.exp(-decay * v)) / v_0 + viscous
-            better = size / (1 + yielding * slope)
-            if abs(better - v) <= 1e-13 * v_0:
-                break
-            v = better
-    else:
-        v = max((size - yielding * coulomb) / (1 + yielding * viscous), v_0)
-        for _ in range(20):
-            fading = stribeck * math.exp(-decay * v) if decay * v < FAR else 0.0
-            surplus = v - size + yielding * (coulomb + fading + viscous * v)
-            change = surplus / (1 + yielding * (viscous - decay * fading))
-            v -= change
-            if abs(change) <= 1e-13 * (1 + v):
-                break
-    force = (size - v) / yielding
-    return (v, force) if wanted >= 0 else (-v, -force)
+    begun = stribeck * math.exp(-decay * v_0)
+    settled, exp = SETTLED * v_0, math.exp
+
+    def slide(coulomb: float, wanted: float, yielding: float) -> tuple[float, float]:
+        size = abs(wanted)
+        level = coulomb + begun
+        if size <= v_0 + yielding * (level + viscous * v_0):
+            v = size / (1 + yielding * (level / v_0 + viscous))
+            for _ in range(20):  # the Stribeck force changes by a hundredth over the linear piece
+                before = v
+                v = size / (1 + yielding * ((coulomb + stribeck * exp(-decay * v)) / v_0 + viscous))
+                if abs(v - before) <= settled:
+                    break
+        else:
+            v = max((size - yielding * coulomb) / (1 + yielding * viscous), v_0)
+            for _ in range(20):
+                fading = stribeck * exp(-decay * v) if decay * v < FAR else 0.0
+                surplus = v - size + yielding * (coulomb + fading + viscous * v)
+                change = surplus / (1 + yielding * (viscous - decay * fading))
+                v -= change
+                if abs(change) <= SMALL_SPEED:
+                    break
+        force = (size - v) / yielding
+        return (v, force) if wanted >= 0 else (-v, -force)
+
+    return slide

@@ -12,7 +12,7 @@ from fluxbore.design.dynamics.force_reference import ForceReference, force_refer
 from fluxbore.design.dynamics.hydrostatic_drive import DriveRun, feed_forward, resting, simulate, velocity_loop
 from fluxbore.design.dynamics.hydrostatic_network import network
 from fluxbore.design.dynamics.hydrostatic_ports import copper_loss, energy_audit, fluid_loss, ports, screw_friction
-from fluxbore.design.dynamics.hydrostatic_step import slide
+from fluxbore.design.dynamics.hydrostatic_step import sliding
 from fluxbore.design.errors import DesignError
 from fluxbore.design.fluid import bulk_modulus, specific_enthalpy, volume_ratio
 from fluxbore.design.hydrostatic import HydrostaticActuator
@@ -189,10 +189,10 @@ def test_rubber_cord_and_series_spring_return_the_piston(actuator: HydrostaticAc
 
 @pytest.mark.parametrize("yielding", [1e-5, 1e-4])
 @pytest.mark.parametrize("wanted", [0.0, 1e-9, 1e-4, 1.5e-3, 3e-3, 0.02, 0.5, -0.003, -0.4])
-def test_slide_solves_its_equation(actuator: HydrostaticActuator, wanted: float, yielding: float) -> None:
+def test_sliding_solves_its_equation(actuator: HydrostaticActuator, wanted: float, yielding: float) -> None:
     """With the friction of the paper, at any place of the law."""
     law = actuator.output_cylinder.friction
-    v, force = slide(law, law.preload, wanted, yielding)
+    v, force = sliding(law)(law.preload, wanted, yielding)
     assert v + yielding * force == pytest.approx(wanted, abs=1e-15)
     assert force == pytest.approx(float(cylinder_friction(law, v, 0.0)), rel=1e-2 if abs(v) < 1e-4 else 1e-9, abs=1e-9)
 

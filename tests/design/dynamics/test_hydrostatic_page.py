@@ -82,21 +82,29 @@ def errors(found: Tracking) -> tuple[float, float]:
     return found.max_error, found.mean_absolute_error
 
 
+def between(cell: str, unit: str) -> tuple[float, float]:
+    """Both ends of "a to b unit"; twice the number of "a unit"."""
+    ends = [float(each) for each in cell.removesuffix(unit).split(" to ")]
+    return ends[0], ends[-1]
+
+
 @pytest.mark.full
 def test_the_table_of_tracking_is_simulated() -> None:
-    """To a hundredth of a newton, and to five degrees: where an error is flat its largest place is not sharp."""
+    """To a hundredth of a newton, and to five degrees: where an error is flat its largest place is not sharp. At 0.1 Hz
+    the largest error is one of stick and slip, told as a range."""
     checked = 0
     for pair in PAIRS:
         name = f"{pair.amplitude:g} N, {pair.frequency:g} Hz" + (" *" if pair.assumed else "")
         for reading in (HALF, WHOLE):
             for largest, mean, place, pressures in rows(name, reading):
                 found = track(ACTUATOR, pair, reading)
-                assert [float(cell.removesuffix(" N")) for cell in (largest, mean)] == pytest.approx(
-                    errors(found), abs=0.011
-                )
+                most, average = errors(found)
+                low, high = between(largest, " N")
+                assert low - 0.011 <= most <= high + 0.011
+                assert float(mean.removesuffix(" N")) == pytest.approx(average, abs=0.011)
                 assert found.phase is not None
-                assert abs((found.phase - float(place.removesuffix("°")) + 90) % 180 - 90) < 5
-                low, high = (float(cell) for cell in pressures.removesuffix(" bar").split(" to "))
+                assert abs((found.phase - between(place, "°")[0] + 90) % 180 - 90) < 5
+                low, high = between(pressures, " bar")
                 assert found.least_pressure == pytest.approx(low * 1e5, abs=0.06e5)
                 assert found.peak_pressure == pytest.approx(high * 1e5, abs=0.06e5)
                 checked += 1
