@@ -157,7 +157,10 @@ class Performance(LeadScrewFigures, HydrostaticFigures):
     continuous_thrust: float | None = figure("force", HEAT, "force constant times continuous current", signed=True)
     # The air cylinder and the rod.
     hoop_stress: float | None = figure(
-        "stress", PRESSURE, "circumferential, at the bore of the cylinder under the pressure", signed=True
+        "stress",
+        PRESSURE,
+        "circumferential, at the bore of the cylinder under the pressure; of a hydraulic one the rated pressure",
+        signed=True,
     )
     cylinder_safety: float | None = figure(
         "count", PRESSURE, "yield stress of the cylinder over its equivalent (von Mises) stress at the bore"
@@ -174,14 +177,21 @@ class Performance(LeadScrewFigures, HydrostaticFigures):
         "radial, between mover and bore: (D_c' - D_m)/2 and the bore dilation, which opens it under pressure",
         signed=True,
     )
-    shaft_stress: float | None = figure("stress", PRESSURE, "axial, under the peak thrust", signed=True)
+    shaft_stress: float | None = figure(
+        "stress",
+        PRESSURE,
+        "axial, under the peak thrust; of a hydraulic cylinder's rod under the force at rated pressure",
+        signed=True,
+    )
     shaft_safety: float | None = figure("count", PRESSURE, "yield stress of the shaft over the shaft stress")
     buckling_force: float | None = figure(
         "force",
         PRESSURE,
         "critical axial load of the rod's free length when extended, by Euler and, where stocky, by Johnson",
     )
-    buckling_safety: float | None = figure("count", PRESSURE, "buckling force over peak thrust")
+    buckling_safety: float | None = figure(
+        "count", PRESSURE, "buckling force over peak thrust; of a hydraulic cylinder over the force at rated pressure"
+    )
     # The piston's seal: two fins with their lips on the bore.
     seal_friction: float | None = figure(
         "force", SEAL, "kinetic friction of the piston's seals at pressure and speed; at rest that of breaking away"

@@ -44,6 +44,31 @@ _ROTLIN = "RotLin paper"
 _CARRIED = ("actuator.carried_mass",)
 _TURNED = ("actuator.motor.inertia",)
 
+_PREHYDRA = "PREHydrA paper"
+_STRIBECK = tuple(f"actuator.friction.{name}" for name in ("preload", "pressure_coefficient", "viscous_coefficient"))
+_SPRING = ("actuator.return_spring.rate", "actuator.return_spring.preload")
+_STROKE = ("actuator.output_cylinder.stroke",)
+_LINE = (
+    *(f"actuator.{name}.diameter" for name in ("port", "fitting", "pressure_block")),
+    "actuator.hose.bore",
+    "actuator.fluid.viscosity",
+)
+_MOVED = ("actuator.output_cylinder.moving_mass", "actuator.motor.inertia", "actuator.ball_screw.inertia")
+_LOOPS = tuple(f"actuator.drive.{name}" for name in ("bandwidth", "integral_time", "force_period", "delay"))
+_COLUMN = (
+    "actuator.fluid.bulk_modulus",
+    "actuator.fluid.air_fraction",
+    "actuator.input_cylinder.dead_volume",
+    "actuator.output_cylinder.dead_volume",
+    "actuator.pressure_block.volume",
+    "actuator.hose.bore",
+)
+_WORN = ("actuator.output_cylinder.mass", "actuator.return_spring.mass", "actuator.other_distal_mass")
+_WALL = ("actuator.output_cylinder.wall_thickness",)
+_ROD = ("actuator.output_cylinder.rod_diameter",)
+_PARKER = "Parker O-Ring Handbook ORD 5700"
+_CYCLE = "quasi-static over a period, or simulated in time"
+
 SOURCES: dict[str, Source] = {
     "force_constant": Source("FEM: Maxwell's stress; network: equation (2)", _NETWORK),
     "force_constant_linkage": Source("3/2 (π/τ) λ_1"),
@@ -138,6 +163,46 @@ SOURCES: dict[str, Source] = {
     "rotor_iron_flux_density": Source("flux along the helix' normal over the iron's section, at x_d = 0"),
     "rotor_inertia": Source("rings of magnets, iron and frame, and what the motor adds", "", _TURNED),
     "reflected_mass": Source("J/h²", "", _TURNED),
+    "force_frequency_limit": Source("F f = ω_max i k/2π", f"{_PREHYDRA}, (4)", _SPRING[:1]),
+    "stroke_force": Source("k x_max", "", (*_SPRING[:1], *_STROKE)),
+    "force_at_rated_pressure": Source("A p"),
+    "pushing_force": Source("A p − F_f(v_max, p)", f"{_PREHYDRA}, (1) and (2)", _STRIBECK),
+    "force_efficiency": Source("F/(F + F_f)", f"{_PREHYDRA}, Sec. V", _STRIBECK),
+    "force_efficiency_both": Source("F/(F + F_f + F_f,in A/A_in)", "", _STRIBECK),
+    "specific_force_distal": Source("A p over the distal mass", "", _WORN),
+    "specific_force_total": Source("A p over the total mass", "", _WORN),
+    "maximum_velocity": Source("ω_max i A_in/A"),
+    "speed_load": Source("2π f F/k over the largest", f"{_PREHYDRA}, (4)", _SPRING[:1]),
+    "torque_load": Source(
+        "largest over peak torque, or rms over continuous", "", ("actuator.motor.peak_torque", *_MOVED, *_LINE)
+    ),
+    "power_load": Source("mean |T ω| over the rated", "", (*_MOVED, *_LINE)),
+    "stroke_load": Source("(F_0 + 2 F − F(0))/k over the stroke", "", (*_STROKE, *_SPRING)),
+    "pressure_load": Source(_CYCLE, "", _MOVED[:1]),
+    "peak_pressure": Source(_CYCLE, "", _MOVED[:1]),
+    "least_pressure": Source(_CYCLE, "", (*_SPRING[1:], *_MOVED[:1], *_LINE)),
+    "line_pressure_drop": Source("orifices and hose by regime", "Merritt 1967; Haaland 1983", _LINE),
+    "effective_bulk_modulus": Source("1/β = Σ V_i/(V β_i)", "Murnaghan 1944; Merritt 1967", _COLUMN),
+    "burst_factor": Source("yield stress over √3 p K²/(K² − 1)", _LAME, _WALL, "the material’s yield stress"),
+    "seal_squeeze": Source("1 − depth/W′", _PARKER, ("actuator.seal.ring_section",)),
+    "seal_stretch": Source("groove’s floor over d_1, less one", _PARKER, ("actuator.seal.ring_section",)),
+    "seal_fill": Source("π W′²/(4 b depth)", _PARKER, ("actuator.seal.ring_section",)),
+    "minimum_friction": Source("least of (1) without pressure", f"{_PREHYDRA}, (1), Table I"),
+    "friction_at_limit": Source("(1) and (2)", f"{_PREHYDRA}, Table I"),
+    "tracking_error": Source("simulated in time", "", (*_LOOPS, *_MOVED, *_COLUMN)),
+    "mean_tracking_error": Source("simulated in time", "", (*_LOOPS, *_MOVED, *_COLUMN)),
+    "energy_imbalance": Source("what enters every port less what is stored and lost"),
+    "fluid_temperature": Source(
+        "losses in seals and line to still air",
+        "Churchill and Chu 1975",
+        ("operating_point.ambient_temperature", *_LINE),
+        "emissivity 0.9; nothing into the frame",
+    ),
+    "distal_mass": Source("cylinder, springs, half of hose and fluid", "", (*_WORN, *_WALL, *_ROD)),
+    "output_cylinder_mass": Source(
+        "parts as drawn", "", ("actuator.output_cylinder.mass", *_WALL, *_ROD, "actuator.output_cylinder.cap_length")
+    ),
+    "fluid_volume": Source("stroke, dead volumes, hose and block", "", (*_STROKE, *_COLUMN[2:])),
 }
 """By the figure's name; what is not here is a length, a mass or a value read from the field."""
 
