@@ -192,11 +192,16 @@ def _check_piston(place: CylinderLayout) -> None:
             f"{place.key}.piston_length must hold the O-ring's groove and a land on both sides of it, at least "
             f"{_mm(shortest)}; got {_mm(place.piston_length)}."
         )
+    if not floor > 2 * LEAST_WALL:
+        raise DesignError(
+            f"actuator.seal.groove_diameter must leave a wall of the piston around the rod's end, above "
+            f"{_mm(2 * LEAST_WALL)}; got {_mm(floor)}."
+        )
     thickest = (floor - 2 * LEAST_WALL) / ROD_SPIGOT
     if 2 * place.r_rod > thickest:
         raise DesignError(
             f"{place.key}.rod_diameter must leave a wall of the piston between its groove and the rod's end in it, at "
-            f"most {_mm(max(thickest, 0.0))}; got {_mm(2 * place.r_rod)}."
+            f"most {_mm(thickest)}; got {_mm(2 * place.r_rod)}."
         )
 
 
@@ -206,18 +211,17 @@ def _check_caps(place: CylinderLayout) -> None:
     if 2 * place.r_port > widest:
         raise DesignError(
             f"actuator.port.diameter must leave a wall in the spigot of {key}'s cap, at most "
-            f"{_mm(max(widest, 0.0))}; got {_mm(2 * place.r_port)}."
+            f"{_mm(widest)}; got {_mm(2 * place.r_port)}."
         )
     thread = 2 * (place.r_outside - LEAST_WALL)
     if 2 * place.r_thread > thread:
         raise DesignError(
-            f"{key}.bleed_thread must leave a wall in the cap, at most {_mm(max(thread, 0.0))}; "
-            f"got {_mm(2 * place.r_thread)}."
+            f"{key}.bleed_thread must leave a wall in the cap, at most {_mm(thread)}; got {_mm(2 * place.r_thread)}."
         )
     if place.r_relief > most:
-        rod = 2 * (max(most**2 - place.r_vent**2, 0.0) ** 0.5 - ROD_CLEARANCE)
+        rod = 2 * max(max(most**2 - place.r_vent**2, 0.0) ** 0.5 - ROD_CLEARANCE, 0.0)
         raise DesignError(
-            f"{key}.rod_diameter must leave a wall in the spigot of the rod-end cap, at most {_mm(max(rod, 0.0))}; "
+            f"{key}.rod_diameter must leave a wall in the spigot of the rod-end cap, at most {_mm(rod)}; "
             f"got {_mm(2 * place.r_rod)}."
         )
     hold = 2 * place.r_thread * (RELIEF + LEAST_THREAD)
