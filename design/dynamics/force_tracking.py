@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fluxbore.design.dynamics.force_reference import HALF, RAMP, READINGS, force_reference
-from fluxbore.design.dynamics.hydrostatic_drive import STEP, DriveRun, simulate
+from fluxbore.design.dynamics.hydrostatic_drive import DriveRun, simulate
 from fluxbore.design.dynamics.hydrostatic_ports import energy_audit, fluid_loss
 from fluxbore.design.errors import DesignError
 from fluxbore.design.hydrostatic import HydrostaticActuator
@@ -81,7 +81,7 @@ def tracking_run(
     *,
     least_force: float = LEAST_FORCE,
     time: float = LEAST_TIME,
-    step: float = STEP,
+    step: float | None = None,
 ) -> DriveRun:
     """The simulation of a pair, with whole periods of cosine over `time` (s) or more. Raises DesignError."""
     start = actuator.return_element.force(0.0)
@@ -118,7 +118,7 @@ def track(
     *,
     least_force: float = LEAST_FORCE,
     time: float = LEAST_TIME,
-    step: float = STEP,
+    step: float | None = None,
 ) -> Tracking:
     """A pair by a reading; what cannot be run is a row with its reason."""
     try:
@@ -212,7 +212,7 @@ def sensitivities(
     reading: str = HALF,
     *,
     time: float = 1.0,
-    step: float = STEP,
+    step: float | None = None,
 ) -> tuple[Sensitivity, ...]:
     """One variation at a time; a run of a few seconds each."""
     found = []

@@ -14,6 +14,7 @@ from fluxbore.design.fluid import (
     check_cavitation,
     density,
     specific_enthalpy,
+    state_of,
     stored_energy,
     viscosity,
     volume_ratio,
@@ -37,6 +38,15 @@ def test_modulus_is_that_of_the_volume(pressure: float) -> None:
     step = 10.0
     slope = (volume_ratio(FLUID, pressure + step) - volume_ratio(FLUID, pressure - step)) / (2 * step)
     assert bulk_modulus(FLUID, pressure) == pytest.approx(-volume_ratio(FLUID, pressure) / slope, rel=1e-6)
+
+
+@pytest.mark.parametrize("exponent", [1.0, 1.4])
+def test_all_at_once_is_one_by_one(exponent: float) -> None:
+    fluid, p = replace(FLUID, air_exponent=exponent), np.array([-0.8e5, 0.0, 2e5, 70e5])
+    found = state_of(fluid, p)
+    np.testing.assert_allclose(found.ratio, volume_ratio(fluid, p), rtol=1e-14)
+    np.testing.assert_allclose(found.enthalpy, specific_enthalpy(fluid, p), rtol=1e-9, atol=1e-6)
+    np.testing.assert_allclose(found.modulus, bulk_modulus(fluid, p), rtol=1e-13)
 
 
 def test_stored_energy_is_the_work_of_compression() -> None:

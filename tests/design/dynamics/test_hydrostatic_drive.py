@@ -141,6 +141,16 @@ def test_step_size_must_divide_the_period(actuator: HydrostaticActuator) -> None
         simulate(actuator, SIGNAL, 0.0)
 
 
+def test_light_pistons_take_short_steps(actuator: HydrostaticActuator) -> None:
+    """Of 20 g the equation of a piston under falling friction has one solution below 23 us alone."""
+    light = replace(actuator, output_cylinder=replace(actuator.output_cylinder, moving_mass=0.02))
+    with pytest.raises(DesignError, match=r"The step must be at most 2\.28\de-05 s .*; got 0.000125 s\."):
+        simulate(light, SIGNAL, 0.1, step=125e-6)
+    found = simulate(light, SIGNAL, 0.02)
+    assert found.step < 12e-6
+    assert energy_audit(found).imbalance < 1e-6
+
+
 def test_a_delay_comes_late_by_itself(actuator: HydrostaticActuator) -> None:
     """From rest, a delay of two steps moves the whole force by that time, until feedback matters."""
     late = replace(actuator, drive=replace(actuator.drive, delay=500e-6, force_gain=0.0))
