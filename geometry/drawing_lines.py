@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import Any
 
+from fluxbore.design.errors import one_line
 from fluxbore.geometry.assembly import Body, Part, Point
 from fluxbore.geometry.measure import Measure
 
@@ -13,6 +14,9 @@ MM = 1e3
 
 APPLICATION = "FLUXBORE"
 """Under which the name of a dimension stands in its extended data."""
+
+LONGEST = 60
+"""Letters of a name in extended data, which holds 255 bytes at most."""
 
 NARROW = 4e-6
 """m^2; smaller sections are filled, not hatched."""
@@ -66,7 +70,7 @@ def add_dimension(space: Any, measure: Measure, start: Point, end: Point, place:
         override=override,
         dxfattribs={"layer": "DIMENSIONS"},
     )
-    made.dimension.set_xdata(APPLICATION, [(1000, measure.name)])
+    made.dimension.set_xdata(APPLICATION, [(1000, one_line(measure.name)[:LONGEST])])
     made.render()
 
 
@@ -74,5 +78,5 @@ def add_text(space: Any, text: str, place: Point, size: float, *, centred: bool 
     """One line of text from a point, or about it (mm)."""
     from ezdxf.enums import TextEntityAlignment
 
-    entity = space.add_text(text, height=size, dxfattribs={"layer": "TEXT"})
+    entity = space.add_text(one_line(text), height=size, dxfattribs={"layer": "TEXT"})
     entity.set_placement(place, align=TextEntityAlignment.CENTER if centred else TextEntityAlignment.LEFT)

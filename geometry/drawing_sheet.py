@@ -6,7 +6,6 @@ from collections.abc import Mapping, Sequence
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any, NamedTuple
 
-from fluxbore.design.errors import one_line
 from fluxbore.design.materials import Material
 from fluxbore.design.units import format_quantity
 from fluxbore.geometry.assembly import Assembly, Body
@@ -56,7 +55,7 @@ def add_sheet(
     _add_table(space, cells, widths, (left, top), size)
     total = sum(item.mass for item in rows)
     title = (
-        (one_line(assembly.name),),
+        (assembly.name,),
         (f"longitudinal section, mover at {format_quantity(assembly.position, 'length', 6)}",),
         (f"scale 1:1, dimensions in mm; mass as drawn {format_quantity(total, 'mass', 4)}",),
         ("nominal sizes: tolerances, fits, chamfers and threads are for the workshop to add",),
@@ -73,10 +72,10 @@ def _cells(item: Item) -> tuple[str, ...]:
     return (
         str(item.number),
         str(item.pieces),
-        one_line(name),
-        one_line(part.material),
+        name,
+        part.material,
         mass,
-        one_line(part.note) if item.pieces == 1 else "",
+        part.note if item.pieces == 1 else "",
     )
 
 

@@ -210,7 +210,7 @@ def _measures(place: CylinderLayout, position: float) -> tuple[Measure, ...]:
         along("stroke", 0.0, place.stroke, place.r_bore, 3),
         along("tube length", cap, front, out, 4),
         along("length over the caps", left, right, out, 5),
-        along("rod length", end - place.rod_length, end, place.r_rod, 6),
+        Measure("rod length", (end - place.rod_length, -place.r_rod_spigot), (end, -place.r_rod), place=6),
         diameter("bore", place.r_bore, 2 * step, 2 * step),
         diameter("groove diameter", floor, middle - half, 3 * step),
         Measure("wall", (step, place.r_bore), (step, out), across=True, place=step),
