@@ -1,6 +1,6 @@
 """Pressures and losses of an electro-hydrostatic actuator over one period of a sinusoidal force, in closed form.
 
-    p_out = (F + m a + F_f(v, F/A))/A,     p_in = p_out + R q        with q = A v and R that of ports, hose and block
+    p_out = (F + m a + F_f(v, p_out))/A,     p_in = p_out + R q        with q = A v and R that of ports, hose and block
     loss  = mean of F_f v of both pistons and R q^2
 
 The force is made exactly and the fluid neither gives nor is it late: what `hydrostatic_drive` simulates, without its
@@ -11,8 +11,9 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
-from fluxbore.design.hydrostatic import HydrostaticActuator
+from fluxbore.design.hydrostatic import HydraulicCylinder, HydrostaticActuator
 
 SAMPLES = 180
 """Of the period, a multiple of four: rest and top speed are among them."""
@@ -53,17 +54,16 @@ def cycle(actuator: HydrostaticActuator, amplitude: float, frequency: float, lea
     phase = math.tau / SAMPLES * np.arange(SAMPLES)
     velocity, acceleration = -omega * way * np.sin(phase), -(omega**2) * way * np.cos(phase)
     force = middle + amplitude * np.cos(phase)
-    friction = cylinder_friction(out.friction, velocity, force / out.area)
-    second = (force + out.moving_mass * acceleration + friction) / out.area
+    second = _piston_pressure(out, force + out.moving_mass * acceleration, velocity)
+    friction = cylinder_friction(out.friction, velocity, second)
     drop = np.array([line_pressure_drop(actuator, float(v)) for v in velocity])
     first = second + drop
     seal = cylinder_friction(into.friction, velocity / ratio, first)
     loss = np.mean((friction + drop * out.area + seal / ratio) * velocity)
     # Next to rest, where static friction is in full: at the top the piston may have come slowly, at the foot it is due.
     slow = out.friction.linear_speed
-    top = float(middle + amplitude + cylinder_friction(out.friction, slow, (middle + amplitude) / out.area)) / out.area
-    foot = float(least_force - cylinder_friction(out.friction, slow, least_force / out.area)) / out.area
-    foot += out.moving_mass * omega**2 * way / out.area
+    top = float(_piston_pressure(out, middle + amplitude, slow))
+    foot = float(_piston_pressure(out, least_force + out.moving_mass * omega**2 * way, -slow))
     return Cycle(
         2 * way,
         omega * way,
@@ -74,3 +74,15 @@ def cycle(actuator: HydrostaticActuator, amplitude: float, frequency: float, lea
         middle / out.area,
         float(loss),
     )
+
+
+def _piston_pressure(cylinder: HydraulicCylinder, force: Any, velocity: Any) -> Any:
+    """p (Pa) with A p = F + F_f(v, p): friction is linear in the pressure, and knows none below zero."""
+    import numpy as np
+
+    from fluxbore.design.cylinder_friction import cylinder_friction
+
+    law = cylinder.friction
+    carried = force + cylinder_friction(law, velocity, 0.0)
+    share = law.pressure_coefficient * np.clip(np.asarray(velocity) / law.linear_speed, -1.0, 1.0)
+    return np.where(carried > 0, carried / (cylinder.area - share), carried / cylinder.area)
