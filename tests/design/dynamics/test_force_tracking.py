@@ -1,6 +1,5 @@
 """Tracking of the PREHydrA's pairs: what the paper's model gives, what cannot be run, what each assumption moves."""
 
-import json
 import math
 
 import pytest
@@ -16,7 +15,6 @@ from fluxbore.design.dynamics.force_tracking import (
     track_all,
     varied,
 )
-from fluxbore.design.dynamics.hydrostatic_benchmark import benchmark_figures, simulated_identification
 from fluxbore.design.hydrostatic import HydrostaticActuator
 from fluxbore.design.prehydra_parameters import prehydra
 
@@ -65,26 +63,6 @@ def test_every_variation_changes_its_own_number(actuator: HydrostaticActuator) -
     rough = varied(actuator, "friction", 1.1)
     assert rough.input_cylinder.friction.preload == pytest.approx(1.1 * 8.1)
     assert rough.output_cylinder.friction.stribeck_decay == 118.5
-
-
-def test_figures_are_by_name_and_json_ready(actuator: HydrostaticActuator, found: Tracking) -> None:
-    failed = Tracking(Pair(300.0, 0.5), HALF, failure="It cannot.")
-    figures = benchmark_figures(actuator, [found, failed], seed=1)
-    assert json.loads(json.dumps(figures)) == figures
-    assert figures["force_frequency_limit"] == pytest.approx(213, abs=0.5)
-    assert figures["efficiency"] == pytest.approx(0.87, abs=0.005)
-    assert figures["tracking"][1] == {
-        "amplitude": 300.0,
-        "frequency": 0.5,
-        "assumed": False,
-        "reading": HALF,
-        "failure": "It cannot.",
-    }
-    assert figures["peak_pressure"] is None
-    decay = figures["identified_friction"]["stribeck_decay"]
-    assert abs(decay["value"] - 118.5) < 4 * decay["standard_error"] < 120
-    assert simulated_identification(actuator, 1).parameters["stribeck_decay"].value == decay["value"]
-    assert simulated_identification(actuator, 2).parameters["stribeck_decay"].value != decay["value"]
 
 
 @pytest.mark.full

@@ -113,6 +113,7 @@ def test_the_table_of_tracking_is_simulated() -> None:
 
 @pytest.mark.full
 def test_the_table_of_sensitivities_is_simulated() -> None:
+    """To one per cent: stick and slip of the ramp leaves that much."""
     names = {
         "orifices": "orifices' bore",
         "fluid.air_fraction": "air in the fluid",
@@ -135,4 +136,4 @@ def test_the_table_of_sensitivities_is_simulated() -> None:
         ((_, _, largest, mean),) = rows(names[found.variation.path])
         told = [[float(each) for each in cell.removesuffix(" N").split(", ")] for cell in (largest, mean)]
         for place, each in enumerate((found.low, found.high)):
-            assert [column[place] for column in told] == pytest.approx(errors(each), abs=0.011), found.variation
+            assert [column[place] for column in told] == pytest.approx(errors(each), rel=0.01), found.variation
