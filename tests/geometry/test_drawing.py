@@ -212,3 +212,15 @@ def test_the_command_writes_one_file_of_our_own(tmp_path: Path, capsys: pytest.C
     step_files.remove_own(folder)
     assert not file.exists()
     assert other.exists()
+
+
+def test_the_page_tells_what_the_program_draws(spec: Spec, whole: Assembly, capsys: pytest.CaptureFixture[str]) -> None:
+    """The parts list of docs/hydrostatic_cad.md, and the sentence that it quotes."""
+    page = (EXAMPLES.parent / "docs" / "hydrostatic_cad.md").read_text(encoding="utf-8")
+    for row in part_masses(whole, spec.materials):
+        line = f"| {row.part.name} | {row.part.material} | {row.volume / MM**3:.1f} | {row.mass * 1e3:.2f} |"
+        assert line in page
+    assert f"In all {total(part_masses(whole, spec.materials)) * 1e3:.0f} g." in page
+    short = ["--set", "actuator.output_cylinder.cap_length=10 mm"]
+    assert main(["export", str(EXAMPLES / "prehydra.toml"), "-o", "x", "--format", "dxf", *short]) == 2
+    assert capsys.readouterr().err.strip() in " ".join(page.replace("\n> ", " ").split())
