@@ -67,7 +67,7 @@ def track(actuator: HydrostaticActuator, amplitude: float, frequency: float, lea
     run = simulate(actuator, signal, signal.ramp + turning, step=step)
     begun = round(signal.ramp / run.step)
     error = np.abs(run.reference - run.force)[begun:]
-    turned = _from(run, begun)
+    turned = since(run, begun)
     audit = energy_audit(run)
     return TrackingFigures(
         float(np.max(error)),
@@ -83,7 +83,7 @@ def track(actuator: HydrostaticActuator, amplitude: float, frequency: float, lea
     )
 
 
-def _from(run: DriveRun, begun: int) -> DriveRun:
-    """The run from one of its steps on."""
+def since(run: DriveRun, begun: int) -> DriveRun:
+    """The run from one of its steps on, as if it had begun there."""
     rows = ("time", "velocity", "way", "content", "pressure", "flow", "friction", "motor_force", "reference", "force")
     return replace(run, **{name: getattr(run, name)[begun:] for name in rows})

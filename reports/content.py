@@ -18,6 +18,7 @@ from fluxbore.optimize.evaluation import Evaluation
 from fluxbore.optimize.outcome import Candidate, Check, SearchResult, SweepResult
 from fluxbore.optimize.pareto_result import ParetoResult
 from fluxbore.optimize.tolerance_result import RobustResult, ToleranceResult
+from fluxbore.reports.hydrostatic_content import HydraulicsContent
 from fluxbore.reports.kind_words import PLAIN, KindWords
 from fluxbore.reports.lead_screw_content import ScrewContent
 
@@ -105,7 +106,7 @@ class ReportContent:
     words : what the actuator's kind calls things.
     front, tolerance, robust : what the study asked for besides a search.
     simulation : the benchmark in simulated time that the design was put through.
-    screw : what only a magnetic lead screw has.
+    screw : what only a magnetic lead screw has. hydraulics : what only an electro-hydrostatic actuator has.
     """
 
     spec: Spec
@@ -134,6 +135,7 @@ class ReportContent:
     robust: RobustResult | None = None
     simulation: BenchmarkResult | None = None
     screw: ScrewContent | None = None
+    hydraulics: HydraulicsContent | None = None
 
     @property
     def design_spec(self) -> Spec:

@@ -18,8 +18,8 @@ def comparison(content: ReportContent) -> Table | None:
     short, word = content.words.route_short, "Chosen, " if content.is_study else ""
     if content.is_study and content.start is not None:
         columns.append((f"Start, {short}", content.start))
-    columns += [(f"{word}{short}", design)] if design is not None else []
-    columns += [(capital(f"{word}network"), network)] if network is not None else []
+    columns += [(capital(f"{word}{short}"), design)] if design is not None else []
+    columns += [(capital(f"{word}{content.words.network_short}"), network)] if network is not None else []
     both = design is not None and network is not None
     rows: list[tuple[Cell, ...]] = []
     sections = []
@@ -34,7 +34,12 @@ def comparison(content: ReportContent) -> Table | None:
                 fine, coarse = getattr(design.performance, name), getattr(network.performance, name)
                 cells.append(Cell(_against(name, fine, coarse) or DASH, "muted"))
             rows.append(tuple(cells))
-    head = ("Figure", "Unit", *(title for title, _ in columns), *((f"Network against {short}",) if both else ()))
+    head = (
+        "Figure",
+        "Unit",
+        *(title for title, _ in columns),
+        *((f"{capital(content.words.network_short)} against {short}",) if both else ()),
+    )
     caption = "Every figure by both routes" if both else f"Every figure by {content.words.route}"
     return Table(caption, head, tuple(rows), words=frozenset({1}), sections=tuple(sections)) if rows else None
 

@@ -22,7 +22,8 @@ class KindWords:
     """The words of one kind of actuator. What a kind does not have is empty, and its sections are left out.
 
     route, route_short : what gives its figures: "by finite elements", "FEM" at the head of a column.
-    network : the cheap model beside it, as "the magnetic network"; network_note : what is to be known of it.
+    network : the cheap model beside it, as "the magnetic network"; network_note : what is to be known of it;
+    network_short : at the head of a column.
     moves : whether there is a mover, and so a window of positions. has_field : whether its field is drawn.
     squeeze : what parts overlap by design.
     headlines : figures of the first screen. main : those whose derivatives stand open. symbols : sign and meaning.
@@ -33,6 +34,7 @@ class KindWords:
     route_short: str = "FEM"
     network: str = ""
     network_note: str = ""
+    network_short: str = "network"
     moves: bool = True
     has_field: bool = True
     squeeze: str = ""
@@ -161,8 +163,14 @@ HYDROSTATIC = KindWords(
     route="simulation in time",
     route_short="simulated",
     network="the closed forms",
+    network_note=(
+        "The closed forms take the force as made exactly, by a fluid that does not give; tracking errors and the "
+        "energy’s balance are the simulation’s alone."
+    ),
+    network_short="closed forms",
     moves=False,
     has_field=False,
+    squeeze="the designed squeeze of the O-ring",
     headlines=(
         "force_frequency_limit",
         "tracking_error",
@@ -171,9 +179,33 @@ HYDROSTATIC = KindWords(
         "distal_mass",
         "specific_force_distal",
     ),
+    main=(
+        "force_frequency_limit",
+        "force_at_rated_pressure",
+        "specific_force_distal",
+        "tracking_error",
+        "peak_pressure",
+        "pressure_load",
+        "torque_load",
+        "burst_factor",
+        "buckling_safety",
+        "distal_mass",
+        "output_cylinder_mass",
+    ),
     symbols=(
         ("F_ref", "reference of the output force"),
-        ("p", "pressure above the atmosphere's"),
+        ("p", "pressure above the atmosphere’s"),
         ("k", "stiffness of the return element"),
+    ),
+    not_checked=(
+        "Inertia of the fluid and leakage past the seals: both are left out, as in the paper.",
+        "End stops: a stroke that is exceeded is refused, not simulated.",
+        "The load: it is held while a force is made. A joint that moves adds its own speed to what is asked.",
+        "Friction that changes along the stroke, with age or with temperature; hysteresis of springs, cords and hose.",
+        "Fatigue and shock: stresses are static. Threads, spigots and how the caps are held in the tube.",
+        "Side loads on the rod, its bearing and guide; wear and extrusion of the O-ring, and its rules with tolerances.",
+        "Air that dissolves or leaves the fluid, and how well the system can be bled.",
+        "Heat of motor and drive; the motor’s own time in overload, and its voltage at top speed.",
+        "The input cylinder’s strength, and hose, block, connectors, screw and motor as parts: they are bought.",
     ),
 )

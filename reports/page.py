@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from fluxbore.design.errors import OutputError
 from fluxbore.design.keys import Key
+from fluxbore.optimize.evaluation import Evaluation
 from fluxbore.optimize.folder import write_atomic
 from fluxbore.reports import (
     benchmark_sections,
@@ -18,6 +19,7 @@ from fluxbore.reports import (
     figure_tables,
     flux_picture,
     front,
+    hydrostatic,
     lead_screw,
     optimum,
     section_drawing,
@@ -116,6 +118,7 @@ def _context(content: ReportContent) -> Mapping[str, Any]:
         "benchmark": benchmark_sections.benchmark_section(content.simulation),
         "failures": story.failures(search) if search else "",
         "screw": _screw(content),
+        "hydraulics": _hydraulics(content),
         "field": _field(content),
         "force_figures": _present(*_force(content)) if sound else (),
         "force_text": [text for text in (story.routes(sound), story.ripple(sound)) if text] if sound else [],
@@ -135,7 +138,7 @@ def _context(content: ReportContent) -> Mapping[str, Any]:
             for note in sorted(spec.notes, key=lambda note: note.status)
         ],
         "provenance": content.provenance,
-        "details": tables.details((("FEM", design), ("Network", content.design_network))),
+        "details": tables.details(_routes(content)),
         "seconds": duration(content.seconds) if content.seconds is not None else "",
         "symbols": _symbols(content),
     }
@@ -217,6 +220,18 @@ def _screw(content: ReportContent) -> dict[str, Any] | None:
     if content.screw is None or content.design is None:
         return None
     return lead_screw.section(content.screw, content.design_spec, content.design)
+
+
+def _hydraulics(content: ReportContent) -> dict[str, Any] | None:
+    if content.hydraulics is None:
+        return None
+    return hydrostatic.section(content.hydraulics, content.design_spec)
+
+
+def _routes(content: ReportContent) -> tuple[tuple[str, Evaluation | None], ...]:
+    """The head of each route's details."""
+    words = content.words
+    return (capital(words.route_short), content.design), (capital(words.network_short), content.design_network)
 
 
 def _field(content: ReportContent) -> dict[str, Any] | None:

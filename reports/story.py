@@ -10,7 +10,7 @@ from fluxbore.design.spec import Spec
 from fluxbore.design.study import Constraint, Variable
 from fluxbore.optimize.evaluation import Evaluation
 from fluxbore.optimize.outcome import Candidate, SearchResult, SweepResult
-from fluxbore.reports import lead_screw
+from fluxbore.reports import hydrostatic, lead_screw
 from fluxbore.reports.content import ReportContent
 from fluxbore.reports.kind_words import PLAIN, KindWords
 from fluxbore.reports.tables import Cell
@@ -334,7 +334,10 @@ def seen(content: ReportContent) -> tuple[str, ...]:
             found.append(f"Equation (2) of the network lies {over} against the finite elements: {sense}.")
     if content.screw is not None:
         found += lead_screw.seen(content.screw, design)
-    found += _masses(content)
+    if content.hydraulics is not None:  # whose parts list is that of one component
+        found += hydrostatic.seen(content.hydraulics, design, network)
+    else:
+        found += _masses(content)
     return tuple(item for item in found if item)
 
 

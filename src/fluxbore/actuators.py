@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from fluxbore.fem.femm_model import FemmModel
     from fluxbore.optimize.evaluation import Evaluation
     from fluxbore.reports.content import FluxMap, SlotComparison
+    from fluxbore.reports.hydrostatic_content import HydraulicsContent
     from fluxbore.reports.lead_screw_content import ScrewContent
 
 
@@ -32,7 +33,8 @@ class Actuator:
     assembly : its parts where they stand in the middle of the stroke. words : what its report calls things.
     flux_map : its field at no current, for a picture. slots : the slotted-slotless comparison. femm_model : its
     cross-section as a FEMM model. benchmarks : the experiments in simulated time that it can be put through, by name.
-    screw : what a report shows of a magnetic lead screw alone, with its evaluation by finite elements.
+    screw : what a report shows of a magnetic lead screw alone, with its evaluation by finite elements. hydraulics :
+    the same of an electro-hydrostatic actuator, with its evaluation by simulation.
     What a kind does not have is None, or empty.
     """
 
@@ -43,6 +45,7 @@ class Actuator:
     femm_model: Callable[[Spec], FemmModel] | None = None
     benchmarks: Mapping[str, Benchmark] = field(default_factory=dict)
     screw: Callable[[Spec, Evaluation], ScrewContent | None] | None = None
+    hydraulics: Callable[[Spec, Evaluation], HydraulicsContent | None] | None = None
 
 
 ACTUATORS: dict[str, Actuator] = {
@@ -55,7 +58,12 @@ ACTUATORS: dict[str, Actuator] = {
         hybrid_views.femm_model,
         {MCFC.name: MCFC},
     ),
-    "hydrostatic": Actuator(hydrostatic_views.assembly, kind_words.HYDROSTATIC, benchmarks={TRACKING.name: TRACKING}),
+    "hydrostatic": Actuator(
+        hydrostatic_views.assembly,
+        kind_words.HYDROSTATIC,
+        benchmarks={TRACKING.name: TRACKING},
+        hydraulics=hydrostatic_views.hydraulics,
+    ),
     "lead-screw": Actuator(
         lead_screw_views.assembly,
         kind_words.LEAD_SCREW,

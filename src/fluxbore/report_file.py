@@ -63,6 +63,7 @@ def write_report_file(
         robust=findings.robust,
         simulation=findings.simulation,
         screw=views.screw(final, found) if views.screw is not None else None,
+        hydraulics=views.hydraulics(final, found) if views.hydraulics is not None else None,
     )
     return write_report(content, path)
 
