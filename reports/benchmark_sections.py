@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from fluxbore.optimize.benchmark import BenchmarkResult
-from fluxbore.reports import contact_force, force_benchmark
+from fluxbore.reports import contact_force, force_benchmark, tracking_benchmark
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,6 +26,7 @@ class BenchmarkSection:
 SECTIONS: dict[str, BenchmarkSection] = {
     "mcfc": BenchmarkSection("contact-force", "Contact force", "contact_force.html", contact_force.section),
     "force": BenchmarkSection("force-benchmark", "Force, simulated", "force_benchmark.html", force_benchmark.section),
+    "tracking": BenchmarkSection("tracking", "Force tracking", "tracking_benchmark.html", tracking_benchmark.section),
 }
 """Every benchmark that has a section."""
 

@@ -54,7 +54,7 @@ def simulate(
         for leaf, value in each.items()
         if leaf in ("value", "standard_error")
     }
-    trials = [*(_trial(run) for run in runs), Trial({"run": IDENTIFICATION}, parameters)]
+    trials = [*(_trial(run, stand.ramp) for run in runs), Trial({"run": IDENTIFICATION}, parameters)]
     return Simulation(NAME, seed, tuple(trials), figures)
 
 
@@ -136,7 +136,7 @@ def _named(run: PairRun) -> dict[str, float | str]:
     return {"amplitude": run.pair.amplitude, "frequency": run.pair.frequency, "reading": run.pair.reading}
 
 
-def _trial(run: PairRun) -> Trial:
-    setting: Mapping[str, str | float] = {"run": TRACKING, **_named(run), "reason": run.reason}
+def _trial(run: PairRun, ramp: float) -> Trial:
+    setting: Mapping[str, str | float] = {"run": TRACKING, **_named(run), "ramp": ramp, "reason": run.reason}
     figures = dict.fromkeys(ROW, math.nan) if run.figures is None else asdict(run.figures)
     return Trial(setting, figures, run.trace)

@@ -87,8 +87,8 @@ def example() -> str:
     force = cylinder_friction(PUBLISHED, v, p) + np.random.default_rng(SEED).normal(0.0, NOISE, len(v))
     head = (
         "# Simulated, not measured: equations (1) and (2) of the paper on the PREHydrA with Table I, at 30 speeds\n"
-        "# spaced geometrically and two pressures each; scatter of 2 N (one sigma), seed 1. The paper tells neither its\n"
-        "# speeds nor its scatter. Written by docs/validation/cylinder_friction.py.\n"
+        "# spaced geometrically and two pressures each; scatter of 2 N (one sigma), seed 1. The paper tells neither\n"
+        "# its speeds nor its scatter. Written by docs/validation/cylinder_friction.py.\n"
         "velocity [mm/s], pressure [bar gauge], force [N]\n"
     )
     rows = (f"{a * 1e3:.2f}, {b / 1e5:.1f}, {c:.2f}\n" for a, b, c in zip(v, p, force, strict=True))
