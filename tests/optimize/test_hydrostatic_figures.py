@@ -6,6 +6,7 @@ from dataclasses import fields, replace
 from pathlib import Path
 
 import pytest
+from hydrostatic_duty import LEAD, OUT, PUSHED, sized
 
 from fluxbore.design.hydrostatic_performance import HydrostaticFigures
 from fluxbore.design.performance import FIGURES, show_figure
@@ -19,7 +20,6 @@ from fluxbore.reports.figure_sources import SOURCES
 
 TOP = Path(__file__).parents[2]
 PREHYDRA = load(TOP / "examples" / "prehydra.toml")
-OUT = "actuator.output_cylinder"
 SIMULATED = ("tracking_error", "mean_tracking_error", "energy_imbalance")
 
 
@@ -294,38 +294,20 @@ def test_a_constant_force_asks_for_no_speed() -> None:
 
 
 def test_the_duty_alone_sizes_the_cylinder() -> None:
-    """The study's optimum in closed form: each limit that binds fixes one variable, and mass grows with each of them.
+    """The study's optimum by hand: every limit that fixes a variable binds, and the mass grows with the variable.
 
-    The springs' rate is the start's (force over the stroke), the bore bears 480 N and its friction at 70 bar, the wall
-    is Lame's, the rod Euler's, the lead makes up for the ratio of areas. Catches limits or masses that are not what
-    they say; that the search gets there is tested with the long ones.
+    Catches limits or masses that are not what they say; that the search gets there is tested with the long ones.
     """
-    changes = duty()
+    changes = sized()
     spec = prehydra(changes)
     start, found = evaluate(PREHYDRA, "network").performance, evaluate(spec, "network").performance
     assert found.force_frequency_limit == pytest.approx(start.force_frequency_limit, rel=1e-9)
     assert found.stroke_force == pytest.approx(start.stroke_force, rel=1e-9)
-    assert found.pushing_force == pytest.approx(480, rel=1e-9)
+    assert found.pushing_force == pytest.approx(PUSHED, rel=1e-9)
     assert found.burst_factor == pytest.approx(start.burst_factor, rel=1e-9)
     assert found.buckling_safety == pytest.approx(3.0, rel=1e-9)
     assert found.output_cylinder_mass < 0.65 * start.output_cylinder_mass
     slopes = MODELS["hydrostatic"].network(spec, tuple(changes)).gradient
     assert slopes is not None
     grows = {key for key, slope in slopes["distal_mass"].items() if slope > 0}
-    assert grows == set(changes) - {"actuator.ball_screw.lead"}
-
-
-def duty() -> dict[str, float | str]:
-    friction = 8.1 + 4.2e-6 * 7e6
-    speed = 592 * 5e-3 / math.tau
-    area = (480 + friction + 15.3 * math.exp(-118.5 * speed) + 59.5 * speed) / 7e6
-    bore = math.sqrt(4 / math.pi * area)
-    rod = (3 * area * 7e6 * (2 * 0.1524) ** 2 * 64 / (math.pi**3 * 193e9)) ** 0.25
-    return {
-        f"{OUT}.bore": bore,
-        f"{OUT}.wall_thickness": 0.8e-3 * bore / 14.3e-3,
-        f"{OUT}.rod_diameter": rod,
-        "actuator.ball_screw.lead": 5e-3 * (bore / 14.3e-3) ** 2,
-        "actuator.hose.bore": 3.2e-3,
-        "actuator.return_spring.rate": 2840.0,
-    }
+    assert grows == set(changes) - {LEAD}
