@@ -20,11 +20,10 @@ CHARACTER = 0.95
 
 
 class Item(NamedTuple):
-    """A line of the parts list: the parts of one role and one material, the first of which bears the number."""
+    """A line of the parts list: the parts of one role and one material, one of which bears the number."""
 
     number: int
-    first: Body
-    pieces: int
+    parts: tuple[Body, ...]
     mass: float
 
 
@@ -34,7 +33,7 @@ def items(assembly: Assembly, materials: Mapping[str, Material]) -> list[Item]:
     for row in part_masses(assembly, materials):
         kinds.setdefault((row.part.role, row.part.material), []).append(row)
     return [
-        Item(number, rows[0].part, len(rows), sum(row.mass for row in rows))
+        Item(number, tuple(row.part for row in rows), sum(row.mass for row in rows))
         for number, rows in enumerate(kinds.values(), 1)
     ]
 
@@ -66,25 +65,21 @@ def add_sheet(
 
 
 def _cells(item: Item) -> tuple[str, ...]:
-    part = item.first
+    part, alone = item.parts[0], len(item.parts) == 1
     mass = format_quantity(item.mass, "mass", 4) if part.material else ""
-    name = part.name if item.pieces == 1 else part.role
-    return (
-        str(item.number),
-        str(item.pieces),
-        name,
-        part.material,
-        mass,
-        part.note if item.pieces == 1 else "",
-    )
+    name, note = (part.name, part.note) if alone else (part.role, "")
+    return str(item.number), str(len(item.parts)), name, part.material, mass, note
 
 
 def _add_numbers(space: Any, rows: Sequence[Item], height: float, size: float) -> None:
     """Each over its part, or as near as the number before it lets it."""
     targets = []
     for item in rows:
-        point = face(item.first).representative_point()
-        targets.append((point.x * MM, abs(point.y) * MM, item.number))
+        faces = (face(part) for part in item.parts)
+        cut = next((found for found in faces if not found.is_empty), None)
+        if cut is not None:  # of arcs around the axis the plane may pass none
+            point = cut.representative_point()
+            targets.append((point.x * MM, abs(point.y) * MM, item.number))
     last = float("-inf")
     for z, y, number in sorted(targets):
         place = max(z, last + 4 * size)

@@ -6,6 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from fluxbore.geometry.helical_part import HelicalPart
+
 if TYPE_CHECKING:
     from fluxbore.geometry.assembly import Body, Point
 
@@ -63,9 +65,11 @@ def overall(parts: Sequence[Body], gap: float) -> tuple[Measure, ...]:
     """Length and diameter of every kind of part (m), for an assembly that says nothing of its own.
 
     gap : between two lines across, to the left of the drawing (m). Of more than `FEW` parts the first of each role
-    stands for all; what is as long at the same place, or as wide, is measured once.
+    stands for all; what is as long at the same place, or as wide, is measured once. What follows a helix has a
+    diameter, but a length only where there is nothing else: the plane need not pass its ends.
     """
     firsts: dict[str, Body] = {}
+    turned = any(not isinstance(part, HelicalPart) for part in parts)
     for part in parts:
         firsts.setdefault(part.name if len(parts) <= FEW else part.role, part)
     spans: dict[tuple[float, float], tuple[str, float]] = {}
@@ -73,7 +77,8 @@ def overall(parts: Sequence[Body], gap: float) -> tuple[Measure, ...]:
     for name, part in firsts.items():
         heights = [z for _, z in part.profile]
         outer, at = max(part.profile)
-        spans.setdefault((min(heights), max(heights)), (f"length, {name}", outer))
+        if not isinstance(part, HelicalPart) or not turned:
+            spans.setdefault((min(heights), max(heights)), (f"length, {name}", outer))
         circles.setdefault(outer, at)
     left = min(z for part in parts for _, z in part.profile)
     by_length = sorted(spans.items(), key=lambda item: item[0][1] - item[0][0])

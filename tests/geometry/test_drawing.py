@@ -17,6 +17,7 @@ from fluxbore.geometry import section, step_files
 from fluxbore.geometry.assembly import Assembly, Hole, Part, rectangle
 from fluxbore.geometry.drawing import dxf_text
 from fluxbore.geometry.drawing_lines import APPLICATION
+from fluxbore.geometry.helical_part import HelicalPart
 from fluxbore.geometry.mass import part_masses, total
 from fluxbore.geometry.measure import overall
 
@@ -191,6 +192,18 @@ def test_other_kinds_are_drawn_with_the_sizes_of_their_parts(name: str) -> None:
     assert sorted(entity.get_measurement() for entity in document.modelspace().query("DIMENSION")) == pytest.approx(
         sorted(measure.length / MM for measure in measures)
     )
+
+
+def test_arcs_that_the_plane_passes_by_are_in_the_list_alone() -> None:
+    """An arc beside the plane has no face to bear a number; drawn alone it has its length and diameter."""
+    arc = HelicalPart(
+        "arc 1", "arc", "mover", "brass", (0.5, 0.5, 0.5), 10 * MM, 12 * MM,
+        ((1.0, 0.0), (2.0, 0.0), (2.0, 5 * MM), (1.0, 5 * MM)),
+    )  # fmt: skip
+    assert section.face(arc).is_empty
+    document = read(dxf_text(Assembly("arcs", (arc,), 0.0), standard()))
+    assert "arc 1" in [entity.dxf.text for entity in document.modelspace().query("TEXT")]
+    assert dimensions(document) == pytest.approx({"length, arc 1": 5.0, "diameter": 24.0})
 
 
 def test_names_from_the_specification_stay_on_one_line() -> None:
