@@ -207,7 +207,8 @@ def _measures(place: CylinderLayout, position: float) -> tuple[Measure, ...]:
         along("spigot, cap end", cap, 0.0, place.r_bore, 2),
         along("spigot, rod end", place.z_front, front, place.r_bore, 2),
         along("piston length", position, back, place.r_piston, 2),
-        along("stroke", 0.0, place.stroke, place.r_bore, 3),
+        # To where the piston's pressure face comes; there is nothing to see at that place.
+        Measure("stroke", (0.0, -place.r_bore), (place.stroke, -place.r_bore), place=3, sign="stroke "),
         along("tube length", cap, front, out, 4),
         along("length over the caps", left, right, out, 5),
         Measure("rod length", (end - place.rod_length, -place.r_rod_spigot), (end, -place.r_rod), place=6),

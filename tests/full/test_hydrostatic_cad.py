@@ -5,13 +5,15 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import ezdxf
 import numpy as np
 import pytest
 
+import fluxbore
 from fluxbore.actuators import actuator_of
 from fluxbore.design import graphics
 from fluxbore.design.errors import DesignError
-from fluxbore.design.spec import load
+from fluxbore.design.spec import load, loads
 from fluxbore.geometry import assembly as geometry
 from fluxbore.geometry import step
 from fluxbore.geometry.drawing import dxf_document
@@ -101,3 +103,22 @@ def test_step_files_come_back_whole_named_and_as_heavy(tmp_path: Path) -> None:
                           ("piston", "rod"), ("end cap, rod end", "rod")):  # fmt: skip
         common = bodies[first].intersect(bodies[second])
         assert sum(kernel_volume(one) for one in common.Solids()) < 1e-15, (first, second)
+
+
+def test_a_design_has_its_drawing_beside_its_step_files(tmp_path: Path) -> None:
+    """The drawing is of the design that was found; that of another name does not stay beside it."""
+    folder = tmp_path / "out"
+    text = PREHYDRA.read_text(encoding="utf-8").partition("[study]")[0]
+    for name, bore in (("PREHydrA", "14.3 mm"), ("narrow", "12 mm")):
+        own = text.replace('name = "PREHydrA"', f'name = "{name}"')
+        spec = loads(own, {CYLINDER + "bore": bore})
+        found = fluxbore.design(spec, folder, picture=False, force=True)
+        assert folder / "cad" / f"{name}.dxf" in found.files
+        drawing = ezdxf.readfile(folder / "cad" / f"{name}.dxf")
+        bores = [
+            entity.get_measurement()
+            for entity in drawing.modelspace().query("DIMENSION")
+            if entity.get_xdata("FLUXBORE")[0].value == "bore"
+        ]
+        assert bores == [pytest.approx(float(bore.split()[0]))]
+        assert sorted(path.name for path in (folder / "cad").iterdir()) == [f"{name}.dxf", f"{name}.step", "parts"]

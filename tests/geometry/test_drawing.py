@@ -145,7 +145,7 @@ def test_what_is_shown_is_what_the_number_means(drawn: Any) -> None:
         for entity in drawn.modelspace().query("DIMENSION")
     }  # fmt: skip
     assert all(len(text) == 1 for text in texts.values())
-    assert texts["stroke"] == ["152.4"]
+    assert texts["stroke"] == ["stroke 152.4"]
     assert "14.3" in texts["bore"][0]
     assert texts["piston clearance"] == ["0.05"]  # of a detail, 10:1
 
