@@ -54,7 +54,13 @@ TRACKING_BENCHMARK_KEYS: tuple[Key, ...] = (
     _key("margin", "that references keep from the force at the stroke's end", "force", 50.0, 1e7, zero=True),
     _key("ramp", "of the skewed sine step before the sinusoid starts", "time", 2.0, 1e3),
     _key("duration", "of the sinusoid; without it a period, and 2 s at least", "time", None, 1e4),
-    _key("step", "of the plant between two samples of the controller", "time", 125e-6, 1e-2),
+    _key(
+        "step",
+        "of the plant between two samples of the controller; without it 125 us, or what a light piston needs",
+        "time",
+        None,
+        1e-2,
+    ),
     _key(
         "highest_pressure",
         "at which friction at the limit and efficiency are told: the largest that the paper saw",

@@ -199,13 +199,17 @@ def actuator_of(spec: Spec) -> HydrostaticActuator:
 
 _INERTIAS = tuple(f"actuator.{name}.inertia" for name in ("motor", "coupling", "ball_screw"))
 
+_BORES = tuple(f"actuator.{name}.diameter" for name in ("port", "fitting", "pressure_block"))
+
 TENTHS = (
     ("bandwidth of the velocity loop", ("actuator.drive.bandwidth",)),
+    ("integral time of the velocity loop", ("actuator.drive.integral_time",)),
     ("gain of the force loop, k_p", ("actuator.drive.force_gain",)),
     ("inertia J of motor, coupling and screw", _INERTIAS),
     ("moving mass of the output", ("actuator.output_cylinder.moving_mass",)),
     ("efficiency of the screw", ("actuator.ball_screw.efficiency",)),
     ("bulk modulus of the fluid", ("actuator.fluid.bulk_modulus",)),
+    ("bore of ports, fittings and block", _BORES),
     ("air in the fluid", ("actuator.fluid.air_fraction",)),
     ("Stribeck force, F_S0", ("actuator.friction.stribeck_force",)),
     ("Coulomb friction, F_preload", ("actuator.friction.preload",)),

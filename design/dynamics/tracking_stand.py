@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from fluxbore.design.dynamics.force_reference import READINGS, ForceReference, force_reference
+from fluxbore.design.dynamics.hydrostatic_drive import STEP, longest_step
 from fluxbore.design.errors import DesignError
 from fluxbore.design.hydrostatic import HydrostaticActuator
 from fluxbore.design.keys import Value
@@ -39,7 +40,8 @@ class TrackingStand:
     """SI units; `fluxbore.design.tracking_benchmark_keys` says what each is.
 
     pairs : both readings of each pair that is run. main : the pair whose traces and energies are shown, by
-    amplitude and frequency. duration : of the sinusoid; None for a period, and `LEAST_DURATION` at least.
+    amplitude and frequency. duration : of the sinusoid; None for a period, and `LEAST_DURATION` at least. step : of the
+    plant; None for what the drive's solver takes by itself.
     """
 
     pairs: tuple[Pair, ...]
@@ -48,7 +50,7 @@ class TrackingStand:
     margin: float
     ramp: float
     duration: float | None
-    step: float
+    step: float | None
     highest_pressure: float
     speeds: int
     spacing: str
@@ -67,17 +69,20 @@ def tracking_stand(values: Mapping[str, Value]) -> TrackingStand:
     def number(leaf: str) -> float:
         return float(values[PREFIX + leaf])
 
+    def optional(leaf: str) -> float | None:
+        value = values.get(PREFIX + leaf)
+        return None if value is None else float(value)
+
     chosen = PUBLISHED_PAIRS if values[f"{PREFIX}pairs"] == PUBLISHED else tuple(range(1, len(PAIRS) + 1))
     given = [(number(f"amplitude_{i}"), number(f"frequency_{i}")) for i in chosen]
-    duration = values.get(f"{PREFIX}duration")
     return TrackingStand(
         tuple(Pair(*pair, reading) for pair in dict.fromkeys(given) for reading in READINGS),
         (float(values["operating_point.force_amplitude"]), float(values["operating_point.frequency"])),
         number("offset"),
         number("margin"),
         number("ramp"),
-        None if duration is None else float(duration),
-        number("step"),
+        optional("duration"),
+        optional("step"),
         number("highest_pressure"),
         int(values[f"{PREFIX}identification_speeds"]),
         str(values.get(f"{PREFIX}identification_spacing", EVEN)),
@@ -91,18 +96,19 @@ def check_stand(actuator: HydrostaticActuator, stand: TrackingStand) -> None:
     """Raise DesignError for a step that does not divide the control period, runs that would not end, and a range of
     speeds that is none."""
     period = actuator.drive.force_period
-    steps = round(period / stand.step)
-    if steps < 1 or not math.isclose(steps * stand.step, period, rel_tol=1e-9):
+    step = stand.step if stand.step is not None else min(STEP, longest_step(actuator) / 2, period)
+    steps = round(period / step)
+    if stand.step is not None and not (steps > 0 and math.isclose(steps * step, period, rel_tol=1e-9)):
         raise DesignError(
             f"{PREFIX}step must be a whole share of actuator.drive.force_period {format_quantity(period, 'time')}; "
-            f"got {format_quantity(stand.step, 'time')}."
+            f"got {format_quantity(step, 'time')}."
         )
     longest = max(stand.sinusoid(pair) for pair in stand.pairs)
-    count = (stand.ramp + longest) / stand.step
+    count = (stand.ramp + longest) / step
     if count > MOST_STEPS:
         raise DesignError(
-            f"{PREFIX}step must be long enough for no more than {MOST_STEPS:.0e} steps of a run; "
-            f"got {count:.2g} of {format_quantity(stand.step, 'time')} for {stand.ramp + longest:.4g} s."
+            f"{PREFIX}duration must be short enough for no more than {MOST_STEPS:.0e} steps of a run; "
+            f"got {count:.2g} of {format_quantity(step, 'time')} for {stand.ramp + longest:.4g} s with the ramp."
         )
     if not stand.slowest_speed < stand.fastest_speed:
         raise DesignError(
