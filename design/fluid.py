@@ -34,6 +34,9 @@ from fluxbore.design.units import STANDARD_ATMOSPHERE, format_quantity
 
 Floats = NDArray[np.float64]
 
+LARGEST_EXPONENT = 500.0
+"""Of Andrade's law; far beyond any fluid, and below what a number holds."""
+
 
 @dataclass(frozen=True, slots=True)
 class Fluid:
@@ -133,10 +136,16 @@ def state_of(fluid: Fluid, pressure: Any) -> FluidState:
 
 
 def viscosity(fluid: Fluid, temperature: Any) -> Any:
-    """mu (Pa s) at a temperature (K)."""
+    """mu (Pa s) at a temperature (K). Raises DesignError where the law has no number for it."""
     cold, hot = fluid.reference_temperature, fluid.hot_temperature
     slope = math.log(fluid.viscosity / fluid.hot_viscosity) / (1 / cold - 1 / hot)
-    return fluid.viscosity * np.exp(slope * (1 / np.asarray(temperature) - 1 / cold))
+    rise = slope * (1 / np.asarray(temperature) - 1 / cold)
+    if not np.all(rise < LARGEST_EXPONENT):
+        raise DesignError(
+            "operating_point.temperature must leave the fluid a viscosity in numbers; "
+            f"got {format_quantity(float(np.min(temperature)), 'temperature', 4)}."
+        )
+    return fluid.viscosity * np.exp(rise)
 
 
 def density(fluid: Fluid, temperature: float, pressure: Any = 0.0) -> Any:

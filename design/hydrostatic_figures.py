@@ -29,6 +29,9 @@ from fluxbore.design.units import format_quantity
 EMISSIVITY = 0.9
 """Of a hose and of painted or oxidised parts."""
 
+LEAST_RISE = 1e-9
+"""K, below which a rise is none."""
+
 HOTTEST = 400.0
 """K above the ambient; beyond it there is no fluid left to speak of."""
 
@@ -203,9 +206,11 @@ def fluid_temperature(actuator: HydrostaticActuator, loss: float, ambient: float
         )
         return given * rise - loss
 
+    if surplus(LEAST_RISE) >= 0:
+        return surroundings
     if surplus(HOTTEST) < 0:
         raise DesignError(
             f"The losses in the fluid must be what cylinders and hose give off at {HOTTEST:g} K above the ambient; "
             f"got {loss:.4g} W."
         )
-    return surroundings + float(brentq(surplus, 1e-9, HOTTEST, xtol=1e-6))
+    return surroundings + float(brentq(surplus, LEAST_RISE, HOTTEST, xtol=1e-6))
