@@ -1,4 +1,4 @@
-"""Electro-hydrostatic actuators with one key at a limit of its own, and what may come of one: figures, or one sentence."""
+"""Electro-hydrostatic actuators with one key at its limit, and what may come of one: figures, or one sentence."""
 
 from __future__ import annotations
 
@@ -16,8 +16,6 @@ from fluxbore.optimize.evaluate import evaluate
 
 EXAMPLE = Path(__file__).parent.parent / "examples" / "prehydra.toml"
 
-NO_STUDY = {"study": ""}
-
 NEAR, FAR = 1e-9, 1e-3
 """Of a largest value and of the example's: how close to an open limit, and how far below what is usual."""
 
@@ -33,7 +31,7 @@ CORD = {
 
 
 def cases() -> Iterator[tuple[str, float]]:
-    """Every number's key with its limits, a value next to an open one, a thousandth and a thousand times the example's."""
+    """Every number's key with its limits, a value next to an open one, and the example's times and over a thousand."""
     spec = load(EXAMPLE)
     for key in HYDROSTATIC_KEYS:
         if key.kind in ("quantity", "number", "count") and not key.name.startswith("benchmark."):
