@@ -200,7 +200,7 @@ def _measures(place: CylinderLayout, position: float) -> tuple[Measure, ...]:
     middle, half = position + place.piston_length / 2, place.gland.groove_width / 2
     end = back - place.rod_seat + place.rod_length
     out, floor, step = place.r_outside, place.gland.groove_diameter / 2, position / 4
-    screw, room = left - NIPPLE_END * 2 * place.r_thread, place.r_outside * 0.6  # room : between lines across
+    screw, room = left - NIPPLE_END * 2 * place.r_thread, 0.025 * (right - left)  # room : between lines across
     return (
         along("cap length, cap end", left, cap, out, 1),
         along("cap length, rod end", front, right, out, 1),
