@@ -13,13 +13,17 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, fields
-
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from typing import TYPE_CHECKING
 
 from fluxbore.design.errors import DesignError
 
-Floats = NDArray[np.float64]
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import ArrayLike, NDArray
+
+    Floats = NDArray[np.float64]
+
+# Specifications are read with this module: numpy is imported when arrays are asked for.
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,6 +52,8 @@ PUBLISHED = CylinderFriction(8.1, 4.2e-6, 15.3, 118.5, 59.5)
 
 def cylinder_friction(law: CylinderFriction, velocity: ArrayLike, pressure: ArrayLike) -> Floats:
     """F_f (N), with the sign of the velocity (m/s); pressure in Pa gauge, no less than zero counts. Both broadcast."""
+    import numpy as np
+
     v = np.asarray(velocity, dtype=np.float64)
     coulomb = law.preload + law.pressure_coefficient * np.maximum(np.asarray(pressure, dtype=np.float64), 0.0)
     sign = np.clip(v / law.linear_speed, -1.0, 1.0)

@@ -26,13 +26,8 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from fluxbore.design.errors import DesignError
 from fluxbore.design.units import STANDARD_ATMOSPHERE, format_quantity
-
-Floats = NDArray[np.float64]
 
 LARGEST_EXPONENT = 500.0
 """Of Andrade's law; far beyond any fluid, and below what a number holds."""
@@ -102,8 +97,15 @@ def specific_enthalpy(fluid: Fluid, pressure: Any) -> Any:
     base = 1 + m * pressure / modulus
     liquid = (1 - fluid.air_fraction) * modulus / (m - 1) * (base ** ((m - 1) / m) - 1)
     absolute = pressure / STANDARD_ATMOSPHERE + 1
-    gas = np.log(absolute) if n == 1 else n / (n - 1) * (absolute ** ((n - 1) / n) - 1)
+    gas = _log(absolute) if n == 1 else n / (n - 1) * (absolute ** ((n - 1) / n) - 1)
     return liquid + fluid.air_fraction * STANDARD_ATMOSPHERE * gas
+
+
+def _log(ratio: Any) -> Any:
+    """Of a number or an array; specifications are read with this module, and must not wait for numpy."""
+    import numpy as np
+
+    return np.log(ratio)
 
 
 def stored_energy(fluid: Fluid, pressure: Any) -> Any:
@@ -128,7 +130,7 @@ def state_of(fluid: Fluid, pressure: Any) -> FluidState:
     ratio = liquid + gas
     enthalpy = modulus / (m - 1) * (base * liquid - (1 - share))
     if n == 1:
-        enthalpy = enthalpy + share * STANDARD_ATMOSPHERE * np.log(absolute)
+        enthalpy = enthalpy + share * STANDARD_ATMOSPHERE * _log(absolute)
     else:
         enthalpy = enthalpy + STANDARD_ATMOSPHERE * n / (n - 1) * (absolute * gas - share)
     give = liquid / (modulus * base) + gas / (n * STANDARD_ATMOSPHERE * absolute)
@@ -137,6 +139,8 @@ def state_of(fluid: Fluid, pressure: Any) -> FluidState:
 
 def viscosity(fluid: Fluid, temperature: Any) -> Any:
     """mu (Pa s) at a temperature (K). Raises DesignError where the law has no number for it."""
+    import numpy as np
+
     cold, hot = fluid.reference_temperature, fluid.hot_temperature
     slope = math.log(fluid.viscosity / fluid.hot_viscosity) / (1 / cold - 1 / hot)
     rise = slope * (1 / np.asarray(temperature) - 1 / cold)
