@@ -9,7 +9,7 @@ from pathlib import Path
 
 from fluxbore.design.errors import FluxboreError
 from fluxbore.design.hydrostatic_keys import HYDROSTATIC_KEYS
-from fluxbore.design.keys import Key
+from fluxbore.design.keys import Key, Value
 from fluxbore.design.performance import Performance
 from fluxbore.design.spec import Spec, load
 from fluxbore.optimize.evaluate import evaluate
@@ -19,7 +19,7 @@ EXAMPLE = Path(__file__).parent.parent / "examples" / "prehydra.toml"
 NEAR, FAR = 1e-9, 1e-3
 """Of a largest value and of the example's: how close to an open limit, and how far below what is usual."""
 
-CORD = {
+CORD: dict[str, Value] = {
     "actuator.return_spring.element": "rubber cord",
     "actuator.return_spring.cord_length": 0.2,
     "actuator.return_spring.cord_area": 4e-4,

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
         Tracked,
     )
 
-FREQUENCIES, AMPLITUDES = 17, 17
+FREQUENCIES, AMPLITUDES = 14, 13
 """Of the operating range's grid; between its points every limit is nearly a power of both."""
 
 SLOWER, FASTER = 12.0, 30.0
