@@ -110,10 +110,12 @@ def amplitudes(series: ForceSeries) -> dict[str, float]:
 
 
 def warnings(spec: Spec, performance: Performance, ideal_iron: bool) -> tuple[str, ...]:
-    """What sound figures do not say by themselves: a load that slips, magnets beyond their temperature or their
-    coercivity, ideal iron that would saturate, figures that the study asks for and the data do not allow."""
+    """What sound figures do not say by themselves: a load that slips, everywhere or at the ends of the stroke, magnets
+    beyond their temperature or their coercivity, ideal iron that would saturate, figures that the study asks for and
+    the data do not allow."""
     return (
         *_slipping(spec, performance),
+        *_running_out(spec, performance),
         *_hot(spec),
         *_weakened(performance),
         *(_saturated(performance) if ideal_iron else ()),
@@ -153,6 +155,18 @@ def _slipping(spec: Spec, performance: Performance) -> list[str]:
     return [
         "The screw slips: operating_point.load_force with the mover accelerated should stay below the stall force, "
         f"{format_quantity(stall, 'force', 4)}; the load alone is {format_quantity(load, 'force', 4)}."
+    ]
+
+
+def _running_out(spec: Spec, performance: Performance) -> list[str]:
+    """Where the screw holds the load in the middle, and no more at the ends of its stroke."""
+    load, stall, left = spec.number("operating_point.load_force"), performance.stall_force, performance.stroke_end_force
+    if stall is None or left is None or not left < load <= stall:
+        return []
+    return [
+        "The load slips at the ends of operating_point.stroke, where the poles run out of the translator: "
+        f"{format_quantity(left, 'force', 4)} of the stall force is left; operating_point.load_force is "
+        f"{format_quantity(load, 'force', 4)}."
     ]
 
 

@@ -148,7 +148,7 @@ def stroke(content: ScrewContent, load: float) -> tuple[str, ...]:
         f"At the ends of the stroke of {millimetres(content.stroke)} poles run out of the translator: {left}, "
         f"is left. All poles are engaged over {millimetres(2 * reach)} alone."
     )
-    return (text, "The load slips there.") if 0 < share * stall < load <= stall else (text,)
+    return (text, "The load slips there.") if share * stall < load <= stall else (text,)
 
 
 def iron(content: ScrewContent) -> Table:

@@ -294,6 +294,20 @@ def test_a_load_beyond_the_stall_is_warned_of() -> None:
     assert any(text.startswith("The screw slips") for text in found.warnings)
 
 
+def test_a_load_that_slips_at_the_strokes_ends_is_warned_of() -> None:
+    """Catches silence where poles run out of the translator: a stroke of 88 mm leaves 3.643 mm of 10.286 mm."""
+    within, beyond, out = (
+        evaluate(rotlin({"operating_point.stroke": stroke}), "network") for stroke in (78e-3, 88e-3, 200e-3)
+    )
+    assert within.performance.stroke_end_force > 100.0
+    assert within.warnings == ()
+    (warning,) = beyond.warnings
+    assert warning.startswith("The load slips at the ends of operating_point.stroke")
+    assert ": 68 N of the stall force is left" in warning
+    (warning,) = out.warnings
+    assert ": 0 N of the stall force is left" in warning
+
+
 def test_no_load_has_no_margin() -> None:
     found = evaluate(
         rotlin({"operating_point.load_force": 0.0, "operating_point.acceleration": 0.0}), "network"

@@ -158,6 +158,9 @@ def test_words_follow_the_stroke(screw: ScrewContent) -> None:
     assert "50\u00a0% of the stall force" in text
     assert "slips there" not in text
     assert "slips there" in lead_screw.stroke(half, 0.6 * screw.spring.peak[1])[-1]
+    out = replace(screw, stroke=screw.screw.translator_length + 2 * screw.screw.active_length)
+    assert "slips there" in lead_screw.stroke(out, 0.1 * screw.spring.peak[1])[-1]
+    assert "slips there" not in " ".join(lead_screw.stroke(out, 0.0))
 
 
 def test_pitch_is_judged_at_the_same_length_of_poles() -> None:
