@@ -21,8 +21,8 @@ and slip, and the largest error is known to a tenth at any step."""
 LEAST_TIME = 1.0
 """s of the cosine; its whole periods that last no less are simulated."""
 
-LONGEST_PERIOD = 100.0
-"""s; a longer one is at rest as far as inertia, fluid and loops are concerned, and takes a minute and more."""
+MOST_STEPS = 100_000
+"""Of a run: some ten seconds of a computer's time, periods of 23 s at the usual step."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,7 +46,7 @@ class TrackingFigures:
 def track(actuator: HydrostaticActuator, amplitude: float, frequency: float, least_force: float) -> TrackingFigures:
     """Of an amplitude (N, half the distance between peaks), a frequency (Hz) and the least force (N).
 
-    Raises DesignError for a period beyond `LONGEST_PERIOD`, a force that the return element does not reach within the
+    Raises DesignError for a run of more than `MOST_STEPS` steps, a force that the return element does not reach within the
     stroke, a stroke that is exceeded and cavitation.
     """
     import numpy as np
@@ -55,16 +55,17 @@ def track(actuator: HydrostaticActuator, amplitude: float, frequency: float, lea
     from fluxbore.design.dynamics.hydrostatic_drive import simulate
     from fluxbore.design.dynamics.hydrostatic_ports import energy_audit, fluid_loss
 
-    if frequency * LONGEST_PERIOD < 1:
-        raise DesignError(
-            f"operating_point.frequency must be {format_quantity(1 / LONGEST_PERIOD, 'frequency', 4)} or above to be "
-            f"simulated in time; got {format_quantity(frequency, 'frequency', 4)}."
-        )
     rest = actuator.return_element.force(0.0)
     signal = ForceReference(rest, least_force, amplitude, frequency)
     period = actuator.drive.force_period
     step = period / math.ceil(period / LONGEST_STEP - 1e-9)
     turning = math.ceil(LEAST_TIME * frequency - 1e-9) / frequency
+    if not signal.ramp + turning <= MOST_STEPS * step:
+        raise DesignError(
+            f"The operating point must be simulated in {MOST_STEPS:g} steps or fewer; operating_point.frequency "
+            f"{format_quantity(frequency, 'frequency', 4)} and actuator.drive.force_period "
+            f"{format_quantity(period, 'time', 4)} ask for {(signal.ramp + turning) / step:.4g}."
+        )
     run = simulate(actuator, signal, signal.ramp + turning, step=step)
     begun = round(signal.ramp / run.step)
     error = np.abs(run.reference - run.force)[begun:]

@@ -239,13 +239,15 @@ def test_what_cannot_be_built_or_made_is_one_sentence(case: str, route: str) -> 
     assert reason.count(". ") == 0
 
 
-def test_a_period_of_days_is_not_simulated() -> None:
+@pytest.mark.parametrize("changes", [asked(50.0, 1e-5), {"actuator.drive.force_period": 1e-6}])
+def test_what_would_take_hours_is_not_simulated(changes: dict[str, float | str]) -> None:
     """It has its closed forms; catches a run that never ends."""
-    spec = prehydra(asked(50.0, 1e-5))
+    spec = prehydra(changes)
     assert evaluate(spec, "network").ok
     found = evaluate(spec, "fem")
     assert found.status == INVALID
     assert "operating_point.frequency" in found.reasons[0]
+    assert "actuator.drive.force_period" in found.reasons[0]
 
 
 def test_an_operating_point_beyond_the_motor_is_warned_of() -> None:
