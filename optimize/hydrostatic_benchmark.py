@@ -202,20 +202,21 @@ _INERTIAS = tuple(f"actuator.{name}.inertia" for name in ("motor", "coupling", "
 _BORES = tuple(f"actuator.{name}.diameter" for name in ("port", "fitting", "pressure_block"))
 
 TENTHS = (
-    ("bandwidth of the velocity loop", ("actuator.drive.bandwidth",)),
-    ("integral time of the velocity loop", ("actuator.drive.integral_time",)),
-    ("gain of the force loop, k_p", ("actuator.drive.force_gain",)),
-    ("inertia J of motor, coupling and screw", _INERTIAS),
-    ("moving mass of the output", ("actuator.output_cylinder.moving_mass",)),
-    ("efficiency of the screw", ("actuator.ball_screw.efficiency",)),
-    ("bulk modulus of the fluid", ("actuator.fluid.bulk_modulus",)),
-    ("bore of ports, fittings and block", _BORES),
-    ("air in the fluid", ("actuator.fluid.air_fraction",)),
-    ("Stribeck force, F_S0", ("actuator.friction.stribeck_force",)),
-    ("Coulomb friction, F_preload", ("actuator.friction.preload",)),
-    ("viscous friction, f_v", ("actuator.friction.viscous_coefficient",)),
+    ("velocity loop's bandwidth", ("actuator.drive.bandwidth",)),
+    ("its integral time", ("actuator.drive.integral_time",)),
+    ("force gain k_p", ("actuator.drive.force_gain",)),
+    ("inertia J", _INERTIAS),
+    ("moving mass", ("actuator.output_cylinder.moving_mass",)),
+    ("screw's efficiency", ("actuator.ball_screw.efficiency",)),
+    ("bulk modulus", ("actuator.fluid.bulk_modulus",)),
+    ("bore of the ports", _BORES),
+    ("air", ("actuator.fluid.air_fraction",)),
+    ("Stribeck force", ("actuator.friction.stribeck_force",)),
+    ("Coulomb friction", ("actuator.friction.preload",)),
+    ("viscous friction", ("actuator.friction.viscous_coefficient",)),
 )  # fmt: skip
-"""Keys of which a tenth more and less is tried, together where there are several."""
+"""Keys of which a tenth more and less is tried, together where there are several: J is that of motor, coupling and
+screw, the ports' bore that of fittings and block too, and the integral time the velocity loop's."""
 
 MILLISECOND = {"actuator.drive.delay": 1e-3}
 

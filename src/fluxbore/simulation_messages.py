@@ -34,12 +34,11 @@ def simulation_text(result: BenchmarkResult) -> str:
     if not result.ok:
         return f"{run.status}: {' '.join(run.reasons)}"
     count = len(result.seeds)
-    seeds = (
-        f"seed {result.seeds[0]}, " if count == 1 else f"medians over seeds {result.seeds[0]} to {result.seeds[-1]}, "
-    )
-    by = route(run.spec, run.evaluation.fidelity)
+    seeds = f"seed {result.seeds[0]}" if count == 1 else f"medians over seeds {result.seeds[0]} to {result.seeds[-1]}"
+    field = f"field by {route(run.spec, run.evaluation.fidelity)}" if run.field is not None else ""
+    conditions = ", ".join(part for part in (seeds if benchmark.random else "", field) if part)
     parts = [
-        f"{benchmark.name}: {benchmark.title} ({benchmark.source}); {seeds if benchmark.random else ''}field by {by}",
+        f"{benchmark.name}: {benchmark.title} ({benchmark.source}); {conditions}",
         _table([("figure", "simulated", "published", "difference", ""), *_published(benchmark.published, run)]),
     ]
     told = (*benchmark.published, *benchmark.causes)
