@@ -54,6 +54,15 @@ def test_the_only_benchmark_needs_no_name_and_no_seeds(result):
     assert "seed" not in text.splitlines()[0]
 
 
+def test_figures_without_a_source_are_told_with_their_units(result):
+    """Catches bare numbers, forces and their values that read alike, and poles whose parts cannot be told apart."""
+    lines = simulation_text(result).splitlines()
+    rows = {line.split()[0]: line.split(maxsplit=1)[1] for line in lines if line.strip()}
+    assert "other figures                          SI units" in lines
+    assert re.fullmatch(r"50: 0\.9\d+, 100: 0\.9\d+", rows["step_t63"])
+    assert rows["poles"].startswith("(-0.954, 0), (-27.3, 335), (-27.3, -335), ")
+
+
 def test_seeds_without_chance_are_refused():
     """Catches five equal runs, and their median told as if it were one of different ones."""
     with pytest.raises(

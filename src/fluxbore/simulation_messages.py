@@ -75,7 +75,7 @@ def _rest(shown: Sequence[Published], figures: Mapping[str, Any]) -> list[list[t
     nested = {name: value for name, value in left.items() if _records(value)}
     plain: list[tuple[str, ...]] = [(_word(name), _plain(value)) for name, value in left.items() if name not in nested]
     grids = [_grid(name, _records(value)) for name, value in nested.items()]
-    return [plain, *grids] if plain else grids
+    return [[("other figures", "SI units"), *plain], *grids] if plain else grids
 
 
 def _records(value: Any) -> dict[str, Mapping[str, Any]]:
@@ -144,9 +144,9 @@ def _plain(value: Any) -> str:
     if isinstance(value, float):
         return f"{value:.3g}"
     if isinstance(value, (list, tuple)):
-        return ", ".join(_plain(item) for item in value)
+        return ", ".join(f"({_plain(item)})" if isinstance(item, (list, tuple)) else _plain(item) for item in value)
     if isinstance(value, Mapping):
-        return ", ".join(f"{name} {_plain(item)}" for name, item in value.items())
+        return ", ".join(f"{name}: {_plain(item)}" for name, item in value.items())
     return "-" if value is None else str(value)
 
 
