@@ -46,8 +46,8 @@ class TrackingFigures:
 def track(actuator: HydrostaticActuator, amplitude: float, frequency: float, least_force: float) -> TrackingFigures:
     """Of an amplitude (N, half the distance between peaks), a frequency (Hz) and the least force (N).
 
-    Raises DesignError for a run of more than `MOST_STEPS` steps, a force that the return element does not reach within the
-    stroke, a stroke that is exceeded and cavitation.
+    Raises DesignError for a run of more than `MOST_STEPS` steps, a force that the return element does not reach within
+    the stroke, a stroke that is exceeded and cavitation.
     """
     import numpy as np
 
