@@ -78,7 +78,7 @@ FORCE_BENCHMARK_KEYS: tuple[Key, ...] = (
     _key("friction", "F_C", "of the guides, sliding", "force", 0.85, 1e6),
     _key("bristle_stiffness", "sigma_0", "of the guides before they slide", "stiffness", 1e5, 1e12, zero=False),
     _key("bristle_damping", "sigma_1", "of the guides before they slide", "viscous friction", 30.0, 1e9),
-    _key("distortion", "", "amplitude of the zero-force line's wave of one turn", "length", 27.07e-6, 1.0),
+    _key("distortion", "", "amplitude of the zero-force line's wave of one turn", "length", 27.11e-6, 1.0),
     _number("second_order", "", "the wave of half a turn over that of one", 0.35, 0.0, 10.0),
     _number("sixth_order", "", "the wave of a sixth of a turn over that of one", 0.2, 0.0, 10.0),
     _number("translator_order", "", "the translator's own wave over that of one turn", 0.35, 0.0, 10.0),

@@ -34,6 +34,14 @@ def test_what_the_paper_does_not_publish_has_a_reason_in_the_example():
     assert given == {key.name.removeprefix(PREFIX) for key in FORCE_BENCHMARK_KEYS}
 
 
+def test_a_key_left_out_is_the_example_s():
+    """Catches a stand without a section of its own that differs from the published and calibrated one."""
+    values = load(EXAMPLE).values
+    defaults = {key.name: key.default for key in FORCE_BENCHMARK_KEYS if key.default is not None}
+    assert len(defaults) == len(FORCE_BENCHMARK_KEYS) - len(OF_THE_SCREW)
+    assert {name: values[name] for name in defaults} == pytest.approx(defaults, rel=1e-12)
+
+
 def test_the_screw_s_own_stand_in_for_what_is_not_given():
     """Catches the paper's stall force in another design's simulation."""
     spec = load(EXAMPLE)
