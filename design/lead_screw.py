@@ -8,7 +8,7 @@ starts x l_p, and
 
     h = starts l_p / 2 pi,      x_d = h theta - x,      T_s = h F_s                          (2), (3), (6)
 
-The keys of a specification will bear the names of the fields: actuator.pitch, actuator.starts, actuator.poles,
+The keys of a specification bear the names of the fields: actuator.pitch, actuator.starts, actuator.poles,
 actuator.gap, actuator.gap_tolerance, actuator.translator.outer_radius, actuator.translator.length,
 actuator.translator.magnet_thickness and so on, actuator.rotor.magnet_thickness and so on; the sentences name them thus.
 """

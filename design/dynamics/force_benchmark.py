@@ -9,7 +9,8 @@ of the linearised control stand beside them. Nothing in it is drawn by chance: o
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import asdict
 from typing import Any
 
@@ -30,6 +31,7 @@ from fluxbore.design.dynamics.linearised import OBSERVER_SPEEDS
 from fluxbore.design.dynamics.magnetic_hysteresis import peak_force, steady_branches, steady_loop
 from fluxbore.design.dynamics.pole_distortion import PoleDistortion, one_by_one
 from fluxbore.design.dynamics.simulation import Simulation, Trace, Trial
+from fluxbore.design.errors import DesignError, FluxboreError
 from fluxbore.design.statistics import root_mean_square
 
 Floats = NDArray[np.float64]
@@ -54,7 +56,8 @@ def simulate(parameters: ForceParameters, seed: int, *, traces: bool = False) ->
     """
     check(parameters)
     p = parameters
-    known = estimators(p, detect(p))
+    with _told("the unloaded runs"):
+        known = estimators(p, detect(p))
     trials = [_detection(p, known, traces)]
     trials += [_experiment(p, number, peak, known, traces) for number, peak in {**p.peaks, LOWER: p.lower_peak}.items()]
     trials += [_step(p, reference, known, traces) for reference in p.references]
@@ -87,7 +90,8 @@ def _detection_error(p: ForceParameters, line: PoleDistortion) -> float:
 
 
 def _experiment(p: ForceParameters, number: str, peak: float, known: Estimators, traces: bool) -> Trial:
-    run = experiment(p, peak)
+    with _told(f"experiment {number}"):
+        run = experiment(p, peak)
     estimates = {
         name: estimate_record(each, run.log.angle, run.log.position).load_force for name, each in known.by_name.items()
     }
@@ -110,9 +114,10 @@ def _experiment_trace(p: ForceParameters, run: PlantRun, estimates: Mapping[str,
 def _step(p: ForceParameters, reference: float, known: Estimators | None, traces: bool) -> Trial:
     """known : whose zero-force line the controller takes, if any."""
     line = no_distortion if known is None else one_by_one(known.detection.distortion)
-    run = simulate_step(stand_of(p), controller_of(p, distortion=line), reference, p.duration)
-    figures = {**asdict(step_figures(run)), "largest_current": float(np.max(np.abs(run.current)))}
     word = "step" if known is not None else "step without x_d0"
+    with _told(f"the {word}, to {reference:g} N"):
+        run = simulate_step(stand_of(p), controller_of(p, distortion=line), reference, p.duration)
+    figures = {**asdict(step_figures(run)), "largest_current": float(np.max(np.abs(run.current)))}
     return Trial(_setting(word, f"{reference:g}", reference), figures, _step_trace(run) if traces else None)
 
 
@@ -192,6 +197,15 @@ def _poles(p: ForceParameters) -> dict[str, Any]:
         "stiffest_load_pole_real_part": float(pole_set(wall, OBSERVER_SPEEDS[0])[0].real),
         "stiffest_load_pole_real_part_filtered": float(pole_set(wall, OBSERVER_SPEEDS[1])[0].real),
     }
+
+
+@contextmanager
+def _told(run: str) -> Iterator[None]:
+    """What a run cannot do begins with which of the benchmark's runs it is."""
+    try:
+        yield
+    except FluxboreError as error:
+        raise DesignError(f"benchmark.force cannot be run as it is given, in {run}: {error}") from error
 
 
 def _setting(run: str, number: str, force: float) -> dict[str, str | float]:

@@ -43,6 +43,10 @@ def check(parameters: ForceParameters) -> None:
         tip = float(getattr(p, name))
         if not tip < p.stall_force:
             raise _beyond(name, "below the stall force", p.stall_force, tip, "force")
+    for first, second in (("first_step", "second_step"), ("first_loop", "second_loop")):
+        one, other = float(getattr(p, first)), float(getattr(p, second))
+        if f"{one:g}" == f"{other:g}":  # what the figures of either go by
+            raise _beyond(second, f"another than {PREFIX}{first}", one, other, "force")
     slowest = 0.5 / p.duration if p.duration > 0 else math.inf
     least = LEAST_PERIODS * p.control_period
     if not p.duration >= least * (1 - 1e-9):

@@ -9,6 +9,7 @@ from rotlin_stand import ROTLIN
 
 from fluxbore.design.dynamics.estimation_run import run_plant
 from fluxbore.design.dynamics.estimation_trials import detect, pressing, to_and_fro
+from fluxbore.design.dynamics.force_benchmark import simulate
 from fluxbore.design.dynamics.force_limits import check
 from fluxbore.design.dynamics.force_stand import controller_of, stand_of
 from fluxbore.design.dynamics.force_step import simulate_step
@@ -39,6 +40,8 @@ def test_the_paper_s_own_are_not_refused():
         ),
         ({"second_step": 185.0, "smooth_friction": 10.0}, "second_step must be below what the screw holds less its"),
         ({"second_loop": 192.0}, "second_loop must be below the stall force, 192 N; got 192 N."),
+        ({"second_step": 50.0}, "second_step must be another than benchmark.force.first_step, 50 N; got 50 N."),
+        ({"first_loop": 165.0}, "second_loop must be another than benchmark.force.first_loop, 165 N; got 165 N."),
         ({"duration": 0.05}, "duration must be at least 1000 control periods, 0.1 s; got 0.05 s."),
         ({"frequency": 0.04}, "frequency must be at least that of half a movement in a run, 0.05 Hz; got 0.04 Hz."),
         ({"xi": 3001.0}, "xi must be at most benchmark.force.psi, 3000 1/m; got 3001 1/m."),
@@ -59,6 +62,14 @@ def test_runs_that_never_end_are_refused_before_they_begin():
         to_and_fro(ROTLIN, 1e-6)
     with pytest.raises(DesignError, match="at most 5000000 steps in time"):
         pressing(replace(ROTLIN, mass=1e-12), 45.0, 10.0)
+
+
+def test_the_run_that_cannot_be_is_named():
+    """Catches a slip of which nobody knows where."""
+    with pytest.raises(
+        DesignError, match=r"^benchmark\.force cannot be run as it is given, in the unloaded runs: A run must"
+    ):
+        simulate(replace(ROTLIN, detection_speed=1e-6), 1)
 
 
 def test_a_short_way_tells_the_line_too():
