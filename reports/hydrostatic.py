@@ -151,12 +151,8 @@ def return_text(content: HydraulicsContent) -> tuple[str, ...]:
             f"Rubber cord, {millimetres(element.length)} long unstrained, goes from {element.stretch:.3g} to "
             f"{stretched:.3g} times its length over the stroke and from {_force(start)} to {_force(end)}, by Mooney’s "
             f"law without hysteresis; it stores {work}.",
-            f"Its stiffness falls from {_stiffness(element.stiffness(0.0))} to {_stiffness(element.stiffness(stroke))}: "
-            "speed and (4) depend on where the force lies; they are taken in its middle."
-            if element.stiffness(stroke) < element.stiffness(0.0)
-            else f"Its stiffness grows from {_stiffness(element.stiffness(0.0))} to "
-            f"{_stiffness(element.stiffness(stroke))}: speed and (4) depend on where the force lies; they are taken in "
-            "its middle.",
+            f"Its stiffness goes from {_stiffness(element.stiffness(0.0))} to {_stiffness(element.stiffness(stroke))}: "
+            "speed and (4) depend on where the force lies, and are taken in its middle.",
         ]
     else:
         found = [
@@ -199,7 +195,7 @@ def force_text(content: HydraulicsContent) -> tuple[str, ...]:
         )
     if figures.force_efficiency is not None and figures.force_efficiency_both is not None:
         found.append(
-            f"Of the largest force and the friction there, {percent(figures.force_efficiency)} arrive if one cylinder’s "
+            f"Of the largest force and the friction there {percent(figures.force_efficiency)} arrive if one cylinder’s "
             f"seal is counted, as the paper does, and {percent(figures.force_efficiency_both)} with both."
         )
     return tuple(found)
@@ -213,8 +209,8 @@ def fluid_text(content: HydraulicsContent, spec: Spec) -> tuple[str, ...]:
     if content.range is None:
         rest = content.actuator.return_element.force(0.0)
         return (
-            f"The constant force takes {_bar(rest / content.actuator.output_cylinder.area)} in the output cylinder; what "
-            "friction and flow add to it depends on a movement, which the specification does not tell.",
+            f"The constant force takes {_bar(rest / content.actuator.output_cylinder.area)} in the output cylinder; "
+            "what friction and flow add to it depends on a movement, which the specification does not tell.",
         )
     found = []
     if figures.peak_pressure is not None and figures.least_pressure is not None:
@@ -268,7 +264,7 @@ def seen(content: HydraulicsContent, design: Evaluation | None, network: Evaluat
         listed = sum(mass for _, mass, _, _ in parts.components(content))
         word = "equals" if abs(listed - whole) <= 1e-9 * whole else "differs from"
         weight = figure_scale("total_mass", [whole])
-        found.append(f"The components’ masses, {weight.quantity(listed)} together, {word} the model’s total mass.")
+        found.append(f"The sum of the components’ masses, {weight.quantity(listed)}, {word} the model’s total mass.")
     return tuple(found)
 
 

@@ -32,8 +32,8 @@ class OperatingPoint:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RangeMap:
-    """frequencies : (n,) Hz. limits : limit -> (n,) amplitude (N) that it allows; one far beyond `amplitudes`, the least
-    and the largest amplitude (N) that are of interest, is as far beyond them as was looked."""
+    """frequencies : (n,) Hz. limits : limit -> (n,) amplitude (N) that it allows; one far beyond `amplitudes`, the
+    least and the largest amplitude (N) that are of interest, is as far beyond them as was looked."""
 
     frequencies: Array
     limits: Mapping[str, Array]

@@ -1,4 +1,4 @@
-"""Pictures of an electro-hydrostatic actuator: its range, its power, the operating point in time, its return element."""
+"""Pictures of an electro-hydrostatic actuator: range, power, the operating point in time, return element."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Tables of an electro-hydrostatic actuator's report on what is built: masses, margins of strength, the seal's gland."""
+"""Tables of an electro-hydrostatic actuator's report on what is built: masses, strength, the seal's gland."""
 
 from __future__ import annotations
 

@@ -203,7 +203,7 @@ HYDROSTATIC = KindWords(
         "The load: it is held while a force is made. A joint that moves adds its own speed to what is asked.",
         "Friction that changes along the stroke, with age or with temperature; hysteresis of springs, cords and hose.",
         "Fatigue and shock: stresses are static. Threads, spigots and how the caps are held in the tube.",
-        "Side loads on the rod, its bearing and guide; wear and extrusion of the O-ring, and its rules with tolerances.",
+        "Side loads on the rod, its bearing and guide; wear and extrusion of the O-ring, its rules with tolerances.",
         "Air that dissolves or leaves the fluid, and how well the system can be bled.",
         "Heat of motor and drive; the motor’s own time in overload, and its voltage at top speed.",
         "The input cylinder’s strength, and hose, block, connectors, screw and motor as parts: they are bought.",

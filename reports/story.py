@@ -47,6 +47,12 @@ PRICE = {
     "motor_torque": 1,
     "rotor_inertia": 1,
     "magnet_mass": 1,
+    "force_frequency_limit": -1,
+    "force_at_rated_pressure": -1,
+    "specific_force_distal": -1,
+    "force_efficiency": -1,
+    "tracking_error": 1,
+    "distal_mass": 1,
 }
 """Figures that can be the price of a gain, with the sign of the change that makes them worse."""
 
