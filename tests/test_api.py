@@ -73,8 +73,8 @@ def python(code: str, cwd: Path) -> str:
 
 FIRST = (
     "",
-    "import fluxbore.optimize.evaluate",
-    "import fluxbore.design.spec, fluxbore.optimize.sweep",
+    pytest.param("import fluxbore.optimize.evaluate", marks=pytest.mark.full),
+    pytest.param("import fluxbore.design.spec, fluxbore.optimize.sweep", marks=pytest.mark.full),
     "from fluxbore.design import spec; from fluxbore import optimize",
 )
 

@@ -154,7 +154,7 @@ def test_what_was_written_is_removed_as_a_whole(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize("there", [False, True])
+@pytest.mark.parametrize("there", [pytest.param(False, marks=pytest.mark.full), True])
 def test_what_a_killed_export_left_goes_at_the_next(tmp_path: Path, there: bool) -> None:
     """Catches scratch folders that pile up; the one of a process that lives and folders of others are not touched."""
     folder = tmp_path / "cad"

@@ -46,7 +46,7 @@ def designs(spec: Spec) -> Designs:
         return Designs(spec, solve_field(spec))
 
 
-@pytest.mark.parametrize("key", [PITCH, LAST, PEAK])
+@pytest.mark.parametrize("key", [PITCH, pytest.param(LAST, marks=pytest.mark.full), PEAK])
 def test_against_differences(designs: Designs, found: Evaluation, key: str) -> None:
     """Catches a wrong weight between positions, states, norms and keys: every figure by keys of each kind.
 
