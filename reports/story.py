@@ -244,7 +244,8 @@ def effort(search: SearchResult, words: KindWords = PLAIN) -> str:
     designs = f"{count} {'design' if count == 1 else 'designs'} by {words.route}"
     ran = f" Algorithm: {search.algorithm}." if search.algorithm else ""
     called = search.network_calls
-    ran += f" {capital(words.network)} was called {called} times besides." if called and words.network else ""
+    were = "were" if words.network.endswith("s") else "was"
+    ran += f" {capital(words.network)} {were} called {called} times besides." if called and words.network else ""
     if search.replayed:
         return f"{designs}, {'all' if reused >= count else reused} of them from an earlier run.{ran}"
     known = f", {reused} of them already in the journal" if reused else ""

@@ -120,7 +120,7 @@ def variables(content: ReportContent) -> tuple[tuple[str, ...], tuple[VariableRo
     spec, search = content.spec, content.search
     others: list[tuple[str, Candidate | None]] = []
     if search is not None:
-        others = [("Network’s start", search.network_start), ("One at a time", content.one_at_a_time)]
+        others = [(_cheap_start(content), search.network_start), ("One at a time", content.one_at_a_time)]
         if search.rounded is not None and search.chosen is search.rounded:
             others.append(("Optimum before rounding", search.best))
     columns = [(title, item) for title, item in others if item is not None]
@@ -160,7 +160,7 @@ def candidates(content: ReportContent) -> Table | None:
         return None
     named: list[tuple[str, Candidate | None]] = [
         ("Start", search.start),
-        ("Network’s start", search.network_start),
+        (_cheap_start(content), search.network_start),
         ("One at a time", content.one_at_a_time),
         ("Joint optimum", search.best),
         ("Joint optimum, rounded to the workshop’s steps", search.rounded),
@@ -177,7 +177,7 @@ def candidates(content: ReportContent) -> Table | None:
     scale = figure_scale(objective.figure, [item.objective for _, item in present])
     rows = tuple(
         (
-            Cell(_named(name, item, search)),
+            Cell(_named(name, item, content)),
             Cell(scale.number(item.objective), "strong" if _same(item, search.chosen) else ""),
             Cell(_against(search.start, item)),
             _standing(content, item),
@@ -228,8 +228,16 @@ def _without_noise(spec: Spec, key: str, value: float | None) -> float | None:
     return None if value is None else clear_value(spec, key, value)
 
 
-def _named(name: str, item: Candidate, search: SearchResult) -> str:
-    return name + " (network)" * (item.evaluation.fidelity == "network") + " – chosen" * _same(item, search.chosen)
+def _named(name: str, item: Candidate, content: ReportContent) -> str:
+    route = f" ({content.words.network_short})" if item.evaluation.fidelity == "network" else ""
+    chosen = content.search.chosen if content.search is not None else None
+    return name + route + " – chosen" * _same(item, chosen)
+
+
+def _cheap_start(content: ReportContent) -> str:
+    """The start that the cheap model gives."""
+    short = capital(content.words.network_short)
+    return f"{short}{'’' if short.endswith('s') else '’s'} start"
 
 
 def _same(item: Candidate, other: Candidate | None) -> bool:
@@ -266,7 +274,7 @@ def _standing(content: ReportContent, item: Candidate) -> Cell:
         return Cell(f"✗ breaks {', '.join(broken)}", "bad")
     unknown = _unknown(content, item)
     if unknown:
-        route = "the network" if item.evaluation.fidelity == "network" else content.words.route
+        route = f"the {content.words.network_short}" if item.evaluation.fidelity == "network" else content.words.route
         return Cell(f"{listing(unknown)} not known to {route}", "muted")
     active = [subject_label(content.spec, check.limit.subject) for check in item.checks if check.active]
     if item.evaluation.warnings:
