@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 from fluxbore.design.dynamics.bouc_wen import advance
 from fluxbore.design.dynamics.force_parameters import ForceParameters
 from fluxbore.design.dynamics.motion_log import MotionLog
+from fluxbore.design.dynamics.screw_hold import holds, lost
 from fluxbore.design.errors import DesignError
 from fluxbore.design.units import format_quantity
 
@@ -36,9 +37,6 @@ RESOLVED = 0.25
 
 MOST_STEPS = 5_000_000
 """Of the plant in one run: a quarter of a minute."""
-
-FARTHEST = 1e6
-"""rad: a rotor that turns as far is not held by its control any more."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -86,16 +84,8 @@ def run_plant(plant: ForceParameters, reference: Floats, *, steps: int | None = 
     counted = speed = current = torque = drag = 0.0
     rows: list[tuple[float, ...]] = []
     for wanted in reference.tolist():
-        if not -FARTHEST < theta < FARTHEST:
-            raise DesignError(
-                f"The control does not hold the rotor at a period of {format_quantity(T, 'time')}: it turns by more "
-                f"than {FARTHEST:g} rad within {format_quantity(T * len(rows), 'time', 4)}."
-            )
-        if not -slip <= x_dn <= slip:
-            raise DesignError(
-                f"The screw slips: after {format_quantity(T * len(rows), 'time', 4)} rotor and mover are further apart "
-                f"than half of the pitch, {format_quantity(slip, 'length', 4)}."
-            )
+        if not holds(theta, x_dn, slip):
+            raise lost(theta, slip, T, len(rows))
         load = K_e * x + D_e * v
         angle = floor(theta / angle_count + 0.5) * angle_count if angle_count > 0 else theta
         rows.append((angle, floor(x / count + 0.5) * count if count > 0 else x, load, theta, x, v))

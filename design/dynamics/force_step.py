@@ -20,16 +20,12 @@ from fluxbore.design.dynamics.guides import Guides, rubbing_of
 from fluxbore.design.dynamics.linearised import FILTERED
 from fluxbore.design.dynamics.magnetic_hysteresis import HysteresisSpring
 from fluxbore.design.dynamics.magnetic_spring import SpringLaw
+from fluxbore.design.dynamics.screw_hold import holds, lost
 from fluxbore.design.dynamics.series_elastic import Environment, SeriesElastic, exact_step
 from fluxbore.design.dynamics.stepped_spring import initial_stiffness, stepped
 from fluxbore.design.errors import DesignError
-from fluxbore.design.units import format_quantity
 
 Floats = NDArray[np.float64]
-
-
-FARTHEST = 1e6
-"""rad: a rotor that turns as far is not held by its control any more."""
 
 
 def undistorted(angle: float, position: float) -> float:
@@ -121,16 +117,8 @@ def _run(stand: Stand, controller: ForceController, reference: float, count: int
     rubbing = rubbing_before = 0.0
     current = 0.0
     for sample in range(len(record) - 1):
-        if not -FARTHEST < angle < FARTHEST:
-            raise DesignError(
-                f"The control does not hold the rotor at a period of {format_quantity(period, 'time')}: it turns by "
-                f"more than {FARTHEST:g} rad within {format_quantity(period * sample, 'time', 4)}."
-            )
-        if not -slip <= h * angle - position <= slip:
-            raise DesignError(
-                f"The screw slips: after {format_quantity(period * sample, 'time', 4)} rotor and mover are further "
-                f"apart than half of the pitch, {format_quantity(slip, 'length', 4)}."
-            )
+        if not holds(angle, h * angle - position, slip):
+            raise lost(angle, slip, period, sample)
         current = control(angle, position)
         record[sample] = angle, position, velocity, spring, current
         torque = torque_constant * current

@@ -1,5 +1,6 @@
 """What the benchmark of the force refuses, each in one sentence with key, limit and value."""
 
+import math
 import re
 from dataclasses import replace
 
@@ -13,6 +14,7 @@ from fluxbore.design.dynamics.force_benchmark import simulate
 from fluxbore.design.dynamics.force_limits import check
 from fluxbore.design.dynamics.force_stand import controller_of, stand_of
 from fluxbore.design.dynamics.force_step import simulate_step
+from fluxbore.design.dynamics.screw_hold import holds, lost
 from fluxbore.design.errors import DesignError, SpecError
 
 
@@ -85,6 +87,27 @@ def test_a_screw_that_slips_is_told():
     """A rotor that runs away from a heavy mover, by more than half of the pitch."""
     with pytest.raises(DesignError, match=r"The screw slips: after 0\.\d+ s .* further apart than half of the pitch"):
         run_plant(replace(ROTLIN, mass=1000.0), np.linspace(0, 200, 4000))
+
+
+@pytest.mark.parametrize(
+    ("angle", "displacement", "sentence"),
+    [
+        (0.0, 2.6e-3, "The screw slips: after 0.2 s rotor and mover are further apart than half of the pitch, 2.5 mm."),
+        (0.0, -2.6e-3, "The screw slips"),
+        (0.0, math.nan, "The screw slips"),
+        (
+            2e6,
+            0.0,
+            "The control does not hold the rotor at a period of 0.0001 s: it turns by more than 1e+06 rad within",
+        ),
+        (math.nan, math.nan, "The control does not hold the rotor"),
+    ],
+)
+def test_what_is_lost_is_told(angle, displacement, sentence):
+    """Catches numbers that are none, which compare as neither too large nor too small."""
+    assert holds(0.0, 2.4e-3, 2.5e-3)
+    assert not holds(angle, displacement, 2.5e-3)
+    assert str(lost(angle, 2.5e-3, 1e-4, 2000)).startswith(sentence)
 
 
 @pytest.mark.parametrize("changes", [{"position_gain": 1e6}, {"speed_gain": 1e4}, {"control_period": 0.02}])
