@@ -222,6 +222,7 @@ def test_a_kind_without_benchmarks_says_so(tmp_path, monkeypatch, capsys):
     assert main(["simulate", "spec.toml", "--benchmark", "mcfc"]) == 2
     assert capsys.readouterr().err == (
         "fluxbore: benchmark must be one of the actuator's kind, and kind coils has none (hybrid has mcfc; "
+        "hydrostatic has tracking; "
         "lead-screw has force); "
         'got "mcfc".\n'
     )

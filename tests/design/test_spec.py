@@ -61,7 +61,7 @@ def test_what_editors_on_windows_write_is_read(content, tmp_path, spec):
 @pytest.mark.parametrize(
     "content, sentence",
     [
-        (b"", 'must hold actuator.kind, one of "hybrid", "coils", "lead-screw"; got none.'),
+        (b"", 'must hold actuator.kind, one of "hybrid", "coils", "lead-screw", "hydrostatic"; got none.'),
         (b"\xff\xfe\x00", "must be a UTF-8 text; byte 0 is not."),
         (b"hello world", "is not valid TOML: Expected '=' after a key"),
         (b"a = " + b"[" * 3000 + b"]" * 3000, f"must be nested at most {DEEPEST} levels deep; it is deeper."),
