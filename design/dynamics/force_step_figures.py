@@ -30,6 +30,7 @@ class StepFigures:
 
 
 def step_figures(run: ForceStep) -> StepFigures:
+    """Of a run that has come to its end value (N), which must not be zero."""
     end = float(run.force[-1])
     overshoot = max(0.0, float(np.max(run.force / end)) - 1)
     return StepFigures(_reached(run, 1 - math.exp(-1)), _reached(run, 0.98), end - run.reference, overshoot)
