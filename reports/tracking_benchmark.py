@@ -23,7 +23,7 @@ from fluxbore.reports import benchmark_tables as shared
 from fluxbore.reports import tracking_benchmark_friction as friction
 from fluxbore.reports import tracking_benchmark_range as pictures
 from fluxbore.reports.tables import Cell, Table
-from fluxbore.reports.wording import DASH, capital, greek, key_scale, plain, significant
+from fluxbore.reports.wording import DASH, capital, greek, plain, significant
 
 DEFAULT = "the default: the paper's, where it has one"
 
@@ -264,13 +264,14 @@ def assumed(run: DesignRun) -> Table:
         value = spec.values.get(note.key)
         if value is None:
             continue
-        shown = value if isinstance(value, str) else key_scale(spec, note.key, [float(value)]).quantity(float(value))
+        key = spec.kind.key(note.key)
+        assert key is not None
         place = note.key.removeprefix("actuator.").rpartition(".")[0].replace("_", " ").replace(".", ", ")
         rows.append(
             (
                 Cell(capital(place or "actuator")),
                 Cell(note.key.rpartition(".")[2].replace("_", " ")),
-                Cell(shown),
+                Cell(key.show(value)),
                 Cell(note.status),
                 Cell(greek(note.reason)),
             )

@@ -13,7 +13,7 @@ from fluxbore.design.dynamics.simulation import Simulation, Trial
 from fluxbore.design.dynamics.tracking_benchmark import TRACKING
 from fluxbore.design.dynamics.tracking_stand import TrackingStand
 from fluxbore.design.hydrostatic import HydrostaticActuator
-from fluxbore.design.hydrostatic_figures import force_frequency_limit, friction_at, ideal_force
+from fluxbore.design.hydrostatic_figures import force_frequency_limit, ideal_force
 from fluxbore.design.hydrostatic_range import demand
 from fluxbore.reports.svg import (
     BAD,
@@ -45,8 +45,8 @@ READING_COLOURS = {HALF: CHOSEN}
 WORDS = {HALF: "amplitude read as half the distance between peaks"}
 """The other reading: the whole distance."""
 
-FREQUENCIES, AMPLITUDES = 9, 6
-"""At which torque and power are computed: their limits are smooth lines."""
+FREQUENCIES, AMPLITUDES = 9, 12
+"""At which pressure, torque and power are computed: their limits are smooth lines, right to 1 %."""
 
 
 def made(simulation: Simulation) -> list[Trial]:
@@ -80,10 +80,10 @@ def operating_range(simulation: Simulation, actuator: HydrostaticActuator, stand
         end = _force_at_end(actuator)
         _level(plot, f, (end - stand.offset) / 2, START, "stroke")
         _level(plot, f, (end - stand.margin - stand.offset) / 2, START, "stroke less margin", dashed=True)
-        rated = ideal_force(actuator) - friction_at(actuator, 0.0, actuator.output_cylinder.rated_pressure)
-        _level(plot, f, (rated - stand.offset) / 2, BAD, "rated pressure")
-        top = 3 * max(largest, (rated - stand.offset) / 2)
-        torque, power, at = _motor_limits(actuator, stand, low, high, top)
+        top = 3 * max(largest, (ideal_force(actuator) - stand.offset) / 2)
+        at = np.geomspace(low, high, FREQUENCIES)
+        pressure, torque, power = load_limits(actuator, stand.offset, at, top)
+        plot.plot(at, pressure, color=BAD, lw=1.5, label="rated pressure")
         plot.plot(at, torque, color=GOOD, lw=1.5, label="motor’s torque")
         if actuator.motor.rated_power is not None:
             plot.plot(at, power, color=PUBLISHED, lw=1.5, label="motor’s power")
@@ -249,20 +249,24 @@ def _force_at_end(actuator: HydrostaticActuator) -> float:
     return actuator.return_element.force(stroke) + (actuator.series_stiffness or 0.0) * stroke
 
 
-def _motor_limits(
-    actuator: HydrostaticActuator, stand: TrackingStand, low: float, high: float, top: float
-) -> tuple[Floats, Floats, Floats]:
-    """Amplitudes (N) at which torque and power are all there is, not a number where none is, and frequencies (Hz)."""
-    frequencies = np.geomspace(low, high, FREQUENCIES)
+def load_limits(actuator: HydrostaticActuator, offset: float, frequencies: Floats, top: float) -> Floats:
+    """Amplitudes (N), (3, f), at which pressure, torque and power are all there is, seals' friction included.
+
+    offset : the least force (N). frequencies : (f,) Hz. top : the largest amplitude looked at (N). Not a number where
+    there is no such amplitude.
+    """
     amplitudes = np.geomspace(top / 300, top, AMPLITUDES)
-    found = np.full((2, FREQUENCIES), np.nan)
+    found = np.full((3, len(frequencies)), np.nan)
     for i, frequency in enumerate(frequencies.tolist()):
-        asked = [demand(actuator, float(amplitude), frequency, stand.offset) for amplitude in amplitudes]
-        for j, name in enumerate(("torque", "power")):
+        asked = [demand(actuator, float(amplitude), frequency, offset) for amplitude in amplitudes]
+        pressed = np.array([each.pressure for each in asked])
+        if pressed[0] < 1 < pressed[-1]:
+            found[0, i] = np.interp(1.0, pressed, amplitudes)  # next to straight: an offset, and the amplitude's share
+        for j, name in enumerate(("torque", "power"), 1):
             share = np.log([max(getattr(each, name), 1e-12) for each in asked])
             if share[0] < 0 < share[-1] and np.all(np.diff(share) > 0):
                 found[j, i] = math.exp(np.interp(0.0, share, np.log(amplitudes)))
-    return found[0], found[1], frequencies
+    return found
 
 
 def _labels(*plots: Axes) -> tuple[list[Artist], list[str]]:

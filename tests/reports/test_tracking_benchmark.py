@@ -6,16 +6,20 @@ import math
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
+from fluxbore.design.hydrostatic_range import demand
 from fluxbore.design.performance import Performance
 from fluxbore.design.spec import load
 from fluxbore.optimize.benchmark import BenchmarkResult, DesignRun
 from fluxbore.optimize.evaluation import OK, Evaluation
 from fluxbore.optimize.hydrostatic_benchmark import TRACKING, simulate_tracking
+from fluxbore.optimize.hydrostatic_common import weighed
 from fluxbore.reports import tracking_benchmark
 from fluxbore.reports.benchmark_sections import SECTIONS, benchmark_section
 from fluxbore.reports.tables import Table
+from fluxbore.reports.tracking_benchmark_range import load_limits
 
 STAND = {
     "benchmark.tracking.pairs": "published",
@@ -26,6 +30,8 @@ STAND = {
     "benchmark.tracking.frequency_6": 4.0,
 }
 SPEC = load(Path(__file__).parents[2] / "examples" / "prehydra.toml").with_values(STAND)
+
+ACTUATOR = weighed(SPEC)
 
 
 @pytest.fixture(scope="module")
@@ -106,6 +112,7 @@ def test_assumptions_are_listed_with_their_reasons(shown: dict[str, Any]) -> Non
     table = shown["assumed"]
     assert len(table.rows) == len([note for note in SPEC.notes if note.key in SPEC.values])
     assert {row[3].text for row in table.rows} == {"assumed"}
+    assert [row[2].text for row in table.rows if row[1].text == "roughness"] == ["0.0015 mm"]
     assert all(row[4].text for row in table.rows)
 
 
@@ -118,6 +125,19 @@ def test_sensitivities_show_what_changes(shown: dict[str, Any]) -> None:
     ]
     assert len(table.rows) == 2
     assert shown["how"] == ""
+
+
+def test_the_range_counts_the_seals_friction() -> None:
+    """On each line the demand is all there is; without friction the pressure's would be level, at 540 N."""
+    frequencies = np.array([0.1, 0.4, 2.0, 10.0])
+    found = load_limits(ACTUATOR, 45.0, frequencies, 1500.0)
+    for row, name in zip(found, ("pressure", "torque", "power"), strict=True):
+        for amplitude, frequency in zip(row, frequencies, strict=True):
+            if not math.isnan(amplitude):
+                asked = demand(ACTUATOR, float(amplitude), float(frequency), 45.0)
+                assert getattr(asked, name) == pytest.approx(1.0, rel=0.015)
+    assert np.all(found[0] < 523)
+    assert np.all(np.diff(found[0]) < 0)
 
 
 def test_pictures_say_what_they_show(shown: dict[str, Any]) -> None:
