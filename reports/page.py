@@ -135,7 +135,7 @@ def _context(content: ReportContent) -> Mapping[str, Any]:
         "not_checked": content.not_checked,
         "notes": [
             {"key": note.key, "label": capital(key_label(spec, note.key)), "status": note.status, "reason": note.reason}
-            for note in sorted(spec.notes, key=lambda note: note.status)
+            for note in sorted(content.design_spec.notes, key=lambda note: note.status)
         ],
         "provenance": content.provenance,
         "details": tables.details(_routes(content)),

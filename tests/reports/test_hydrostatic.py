@@ -92,6 +92,16 @@ def test_the_page_has_every_section(found: tuple[Evaluation, HydraulicsContent])
     assert "finite element" not in text
 
 
+def test_what_was_designed_is_no_longer_assumed(found: tuple[Evaluation, HydraulicsContent]) -> None:
+    """The start's wall was assumed; the chosen one is the search's."""
+    wall, hose = "actuator.output_cylinder.wall_thickness", "actuator.hose.roughness"
+    content = ReportContent(spec=SPEC, start=found[0], words=HYDROSTATIC)
+    designed = replace(content, chosen_spec=SPEC.with_values({wall: 0.6e-3}), chosen=found[0])
+    for page, listed in ((render(content), True), (render(designed), False)):
+        assert (f"<code>{wall}</code>" in page) == listed
+        assert f"<code>{hose}</code>" in page
+
+
 def test_the_range_s_limits_are_those_of_single_forces(content: HydraulicsContent) -> None:
     """The least of the lines, drawn between points of a grid, against a search at its own frequency."""
     limits = content.range
