@@ -205,7 +205,8 @@ def _flatten(
                     raise SpecError(f"{name} must be a section of keys, [{name}]; got {shown(raw)}.")
                 _flatten(raw, name, known, given, notes)
                 continue
-            names = {key.section for key in known.values()} if isinstance(raw, dict) else known
+            section = isinstance(raw, dict) and "value" not in raw  # else a value with the reason why it was assumed
+            names = {key.section for key in known.values()} if section else known
             raise SpecError(f"{name} is not a key of this specification{suggestion(name, names)}.")
         if isinstance(raw, dict):
             raw = _annotated(name, raw, notes)

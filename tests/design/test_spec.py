@@ -110,6 +110,11 @@ def test_overrides_take_the_place_of_the_files_values():
             "5",
             "actuator.turns is not a key of this specification (did you mean actuator.winding.turns?).",
         ),
+        (
+            "actuator.winding.turnz",
+            '{ value = 5, assumed = "a guess" }',
+            "actuator.winding.turnz is not a key of this specification (did you mean actuator.winding.turns?).",
+        ),
         ("actuator.kind.x", "1", "kind holds a value, not a section"),
         ("study.variables.9.lower", "1 mm", 'must number an item of a list of 2, counted from 0; got "9".'),
         ("study.variables.-1", "", "must number an item of a list of 2"),
