@@ -12,6 +12,9 @@ from fluxbore.design.tracking_benchmark_keys import TRACKING_BENCHMARK_KEYS
 LARGEST_LENGTH = 10.0
 """m; beyond it a length is a slip of the unit, not an actuator."""
 
+LEAST_SHARE = 1e-15
+"""Of a key's largest value, the least of those that must exceed zero: below it squares and quotients have no number."""
+
 LINEAR, CONSTANT, CORD = RETURN_ELEMENTS = ("linear spring", "constant force", "rubber cord")
 
 CYLINDERS = ("input_cylinder", "output_cylinder")
@@ -28,13 +31,13 @@ def _quantity(
     default: float | None = None,
     optional: bool = False,
 ) -> Key:
-    """From zero, or above it, to a largest value; required where it has no default and is not optional."""
+    """From zero, or from next to it, to a largest value; required where it has no default and is not optional."""
     return Key(
         f"actuator.{name}",
         doc,
         dimension=dimension,
         symbol=symbol,
-        minimum=0.0 if zero else None,
+        minimum=0.0 if zero else LEAST_SHARE * largest,
         above=None if zero else 0.0,
         maximum=largest,
         default=default,

@@ -58,7 +58,7 @@ def track(actuator: HydrostaticActuator, amplitude: float, frequency: float, lea
     rest = actuator.return_element.force(0.0)
     signal = ForceReference(rest, least_force, amplitude, frequency)
     period = actuator.drive.force_period
-    step = period / math.ceil(period / LONGEST_STEP - 1e-9)
+    step = period / max(math.ceil(period / LONGEST_STEP - 1e-9), 1)
     turning = math.ceil(LEAST_TIME * frequency - 1e-9) / frequency
     if not signal.ramp + turning <= MOST_STEPS * step:
         raise DesignError(

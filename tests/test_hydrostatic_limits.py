@@ -21,10 +21,23 @@ def test_the_cases_reach_every_number() -> None:
         ("actuator.return_spring.rate", 1e12),  # losses too small to warm anything
         ("operating_point.temperature", 1e-6),  # a viscosity beyond any number
         ("actuator.hose.bore", 6.35e-6),  # pressures beyond any number's sense
+        ("actuator.return_spring.rate", 1e-300),  # a way beyond any number
+        ("actuator.hose.bore", 1e-14),
     ],
 )
 def test_limits_that_broke_it(name: str, value: float) -> None:
     outcome(name, value, "network")
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("actuator.motor.torque_constant", 1e-300),  # a current whose square has no number
+        ("actuator.drive.force_period", 1e-14),  # less than a step's rounding
+    ],
+)
+def test_limits_that_broke_the_simulation(name: str, value: float) -> None:
+    outcome(name, value, "fem")
 
 
 def test_random_limits_have_figures_or_a_reason() -> None:

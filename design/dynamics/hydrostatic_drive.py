@@ -92,7 +92,7 @@ def simulate(
     """
     period, longest = actuator.drive.force_period, longest_step(actuator)
     if step is None:
-        step = period / math.ceil(period / min(STEP, longest / 2) - 1e-9)
+        step = period / max(math.ceil(period / min(STEP, longest / 2) - 1e-9), 1)
     steps = round(period / step) if math.isfinite(step) and step > 0 else 0
     if steps < 1 or not math.isclose(steps * step, period, rel_tol=1e-9):
         raise DesignError(f"The step must be a whole share of the control period {period:g} s; got {step:g} s.")
