@@ -59,7 +59,7 @@ def track(actuator: HydrostaticActuator, amplitude: float, frequency: float, lea
     signal = ForceReference(rest, least_force, amplitude, frequency)
     period = actuator.drive.force_period
     step = period / max(math.ceil(period / LONGEST_STEP - 1e-9), 1)
-    turning = math.ceil(LEAST_TIME * frequency - 1e-9) / frequency
+    turning = max(math.ceil(LEAST_TIME * frequency - 1e-9), 1) / frequency
     if not signal.ramp + turning <= MOST_STEPS * step:
         raise DesignError(
             f"The operating point must be simulated in {MOST_STEPS:g} steps or fewer; operating_point.frequency "

@@ -166,7 +166,11 @@ def test_what_fails_has_one_reason(capsys: pytest.CaptureFixture[str], changes: 
     [
         (
             ("operating_point.frequency=1e-4 Hz",),
-            "operating_point.frequency must be 0.01 Hz or above to be simulated in time; got 0.0001 Hz.",
+            "The operating point must be simulated in 100000 steps or fewer; operating_point.frequency 0.0001 Hz and ",
+        ),
+        (  # not even one period of it, if periods were counted by rounding
+            ("operating_point.frequency=1e-10 Hz",),
+            "The operating point must be simulated in 100000 steps or fewer; operating_point.frequency 1e-10 Hz and ",
         ),
         (
             ("actuator.drive.force_gain=1 m/(N s)",),
