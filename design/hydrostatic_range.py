@@ -3,7 +3,7 @@
 A reference F_0 + F (1 + cos 2 pi f t), from the least force F_0 to F_0 + 2 F, asks at the same time for
 
     speed      2 pi f F/k                              up to the motor's                                  (4)
-    stroke     (F_0 + 2 F - F(0))/k                    up to the output cylinder's
+    stroke     the return element's way to F_0 + 2 F   up to the output cylinder's
     pressure   (F_0 + 2 F + F_f)/A                     up to the rated one
     torque     i/eta (force at the input piston) + J acceleration      largest to the motor's peak torque, rms to its
                                                        continuous one
@@ -53,7 +53,7 @@ class Demand:
 
 def demand(actuator: HydrostaticActuator, amplitude: float, frequency: float, least_force: float) -> Demand:
     """Of an amplitude F (N, half the distance between peaks), a frequency (Hz) and the least force F_0 (N)."""
-    cylinder, element = actuator.output_cylinder, actuator.return_element
+    cylinder = actuator.output_cylinder
     middle = extension_at(actuator, least_force + amplitude)
     k = stiffness(actuator, middle)
     if k <= 0:  # a constant force asks for no way at all
@@ -68,7 +68,7 @@ def demand(actuator: HydrostaticActuator, amplitude: float, frequency: float, le
     effective = float(np.sqrt(np.mean(torque**2)))
     return Demand(
         speed / maximum_velocity(actuator),
-        (top - element.force(0.0)) / k / cylinder.stroke,
+        _way(actuator, top) / cylinder.stroke,
         pressure / cylinder.rated_pressure,
         max(float(np.max(np.abs(torque))) / motor.peak_torque, effective / motor.continuous_torque),
         float(np.mean(np.abs(power))) / motor.rated_power if motor.rated_power is not None else 0.0,
@@ -120,6 +120,13 @@ def extension_at(actuator: HydrostaticActuator, force: float) -> float:
     from scipy.optimize import brentq
 
     return float(brentq(beyond, 0.0, stroke))
+
+
+def _way(actuator: HydrostaticActuator, force: float) -> float:
+    """Of the return element from its retracted end to a force (m); beyond the stroke with its stiffness there."""
+    stroke = actuator.output_cylinder.stroke
+    end = actuator.return_element.force(stroke) + (actuator.series_stiffness or 0.0) * stroke
+    return extension_at(actuator, force) + max(force - end, 0.0) / stiffness(actuator, stroke)
 
 
 def _motor(

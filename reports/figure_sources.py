@@ -177,7 +177,7 @@ SOURCES: dict[str, Source] = {
         "largest over peak torque, or rms over continuous", "", ("actuator.motor.peak_torque", *_MOVED, *_LINE)
     ),
     "power_load": Source("mean |T ω| over the rated", "", (*_MOVED, *_LINE)),
-    "stroke_load": Source("(F_0 + 2 F − F(0))/k over the stroke", "", (*_STROKE, *_SPRING)),
+    "stroke_load": Source("the way to F_0 + 2 F over the stroke", "", (*_STROKE, *_SPRING)),
     "pressure_load": Source(_CYCLE, "", _MOVED[:1]),
     "peak_pressure": Source(_CYCLE, "", _MOVED[:1]),
     "least_pressure": Source(_CYCLE, "", (*_SPRING[1:], *_MOVED[:1], *_LINE)),

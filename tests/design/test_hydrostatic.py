@@ -31,7 +31,7 @@ from fluxbore.design.hydrostatic_range import demand, largest_amplitude, operati
 from fluxbore.design.materials import standard
 from fluxbore.design.prehydra_parameters import prehydra
 from fluxbore.design.pressure_vessel import wall_stress
-from fluxbore.design.return_element import ConstantReturn
+from fluxbore.design.return_element import ConstantReturn, CordReturn
 
 
 @pytest.fixture(scope="module")
@@ -80,6 +80,18 @@ def test_limits_of_the_range(actuator: HydrostaticActuator) -> None:
     fast, why = largest_amplitude(actuator, 4.0, 45.0)
     assert why == "speed"
     assert fast == pytest.approx(force_frequency_limit(actuator) / 4, rel=1e-6)
+
+
+def test_a_cord_is_drawn_out_to_the_end_of_the_stroke(actuator: HydrostaticActuator) -> None:
+    """Its slope in the middle of the force would take 3 % off the force that the stroke allows."""
+    cord = CordReturn(0.2, 4e-4, 1.3, 2e5, 0.0)
+    elastic, stroke = replace(actuator, return_element=cord), actuator.output_cylinder.stroke
+    found, why = largest_amplitude(elastic, 0.05, 130.0)
+    assert why == "stroke"
+    assert 130.0 + 2 * found == pytest.approx(cord.force(stroke), rel=1e-6)
+    half = demand(elastic, (cord.force(stroke / 2) - 130.0) / 2, 0.05, 130.0)
+    assert half.stroke == pytest.approx(0.5, rel=1e-6)
+    assert demand(elastic, found + 1.0, 0.05, 130.0).stroke > 1
 
 
 def test_weaker_parts_move_the_limit(actuator: HydrostaticActuator) -> None:
