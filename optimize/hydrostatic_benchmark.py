@@ -15,7 +15,6 @@ from fluxbore.optimize.evaluation import Evaluation
 
 if TYPE_CHECKING:
     from fluxbore.design.dynamics.simulation import Simulation
-    from fluxbore.design.hydrostatic import HydrostaticActuator
 
 # The table of actuators holds this benchmark, and is read before every command: what simulates is imported when used.
 
@@ -186,15 +185,9 @@ def _designs(spec: Spec) -> Sequence[Mapping[str, Value]]:
 def _field(spec: Spec, evaluations: Sequence[Evaluation]) -> None:
     """There is none; refuses a stand that cannot be."""
     from fluxbore.design.dynamics.tracking_stand import check_stand, tracking_stand
+    from fluxbore.optimize.hydrostatic_common import weighed
 
-    check_stand(actuator_of(spec), tracking_stand(spec.values))
-
-
-def actuator_of(spec: Spec) -> HydrostaticActuator:
-    """With the masses of its parts as drawn, where none are given."""
-    from fluxbore.geometry.hydrostatic_parts import masses
-
-    return spec.actuator.weighed(masses(spec.actuator, spec.materials))  # type: ignore[no-any-return]
+    check_stand(weighed(spec), tracking_stand(spec.values))
 
 
 _INERTIAS = tuple(f"actuator.{name}.inertia" for name in ("motor", "coupling", "ball_screw"))
@@ -249,9 +242,10 @@ def simulate_tracking(spec: Spec, field: None, seed: int, traces: bool) -> Simul
     """Every pair, and the friction that the seed's data tell. Raises DesignError where none can be made."""
     from fluxbore.design.dynamics.tracking_benchmark import simulate
     from fluxbore.design.dynamics.tracking_stand import tracking_stand
+    from fluxbore.optimize.hydrostatic_common import weighed
 
     whole: Any = spec.values[f"{PREFIX}pairs"] == ALL
-    return simulate(actuator_of(spec), tracking_stand(spec.values), seed, whole=bool(whole), traces=traces)
+    return simulate(weighed(spec), tracking_stand(spec.values), seed, whole=bool(whole), traces=traces)
 
 
 TRACKING = Benchmark(

@@ -17,8 +17,8 @@ from fluxbore.optimize.hydrostatic_benchmark import (
     MEASURED_ERROR,
     MEASURED_MEAN,
     MODEL_ERROR,
-    actuator_of,
 )
+from fluxbore.optimize.hydrostatic_common import weighed
 from fluxbore.reports import benchmark_tables as shared
 from fluxbore.reports import tracking_benchmark_friction as friction
 from fluxbore.reports import tracking_benchmark_range as pictures
@@ -36,7 +36,7 @@ HOW = (
 def section(result: BenchmarkResult) -> dict[str, Any]:
     """Everything that the template shows."""
     run, benchmark = result.run, result.benchmark
-    first, actuator, stand = run.simulations[0], actuator_of(run.spec), tracking_stand(run.spec.values)
+    first, actuator, stand = run.simulations[0], weighed(run.spec), tracking_stand(run.spec.values)
     law = actuator.output_cylinder.friction
     sound = [item for item in result.runs if item.ok]
     every = ("max_error", "mean_absolute_error")

@@ -12,7 +12,8 @@ from fluxbore.cli import main
 from fluxbore.design.dynamics.tracking_benchmark import abilities
 from fluxbore.design.dynamics.tracking_stand import tracking_stand
 from fluxbore.design.spec import load
-from fluxbore.optimize.hydrostatic_benchmark import TRACKING, actuator_of
+from fluxbore.optimize.hydrostatic_benchmark import TRACKING
+from fluxbore.optimize.hydrostatic_common import weighed
 
 TOP = Path(__file__).parent.parent
 PAGE = (TOP / "docs" / "hydrostatic_tracking.md").read_text(encoding="utf-8")
@@ -36,7 +37,7 @@ def test_the_command_prints_what_the_page_quotes(
 
 def test_figures_of_closed_form_are_the_programs() -> None:
     spec = load(TOP / "examples" / "prehydra.toml")
-    found = abilities(actuator_of(spec), tracking_stand(spec.values))
+    found = abilities(weighed(spec), tracking_stand(spec.values))
     assert f"{found['force_frequency_limit']:.1f}" == str(shown("force times frequency, (4)"))
     assert f"{found['maximum_velocity']:.4f}" == str(shown("largest speed"))
     assert f"{found['stroke_force']:.1f}" == str(shown("force over the stroke"))

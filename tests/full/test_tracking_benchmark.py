@@ -10,7 +10,8 @@ from fluxbore.cli import main
 from fluxbore.design.dynamics.tracking_pair import run_pair
 from fluxbore.design.dynamics.tracking_stand import Pair, tracking_stand
 from fluxbore.design.spec import load
-from fluxbore.optimize.hydrostatic_benchmark import ALTERNATIVES, actuator_of
+from fluxbore.optimize.hydrostatic_benchmark import ALTERNATIVES
+from fluxbore.optimize.hydrostatic_common import weighed
 
 pytestmark = pytest.mark.full
 
@@ -65,7 +66,7 @@ def test_energy_balances_in_every_run(figures):
 def test_half_the_step_changes_the_figures_by_less_than_one_per_cent(pair):
     """At 0.1 Hz the largest error is one of many slips and does not converge so; its mean does."""
     spec = load(SPEC)
-    actuator, stand = actuator_of(spec), tracking_stand(spec.values)
+    actuator, stand = weighed(spec), tracking_stand(spec.values)
     fine = tracking_stand({**spec.values, "benchmark.tracking.step": 62.5e-6})
     one, two = (run_pair(actuator, each, pair, traces=False).figures for each in (stand, fine))
     for name in ("max_error", "mean_absolute_error", "peak_pressure"):
@@ -97,7 +98,7 @@ def test_the_page_has_the_simulated_figures(figures):
 def test_the_page_has_the_sensitivities(label):
     """The rows that say which assumption drives the errors."""
     spec = load(SPEC).with_values(dict(ALTERNATIVES)[label])
-    found = run_pair(actuator_of(spec), tracking_stand(spec.values), Pair(50.0, 4.0, "half"), traces=False).figures
+    found = run_pair(weighed(spec), tracking_stand(spec.values), Pair(50.0, 4.0, "half"), traces=False).figures
     largest, mean, *_, phase = numbers(label)
     assert found.max_error == pytest.approx(largest, rel=0.02)
     assert found.mean_absolute_error == pytest.approx(mean, rel=0.02)

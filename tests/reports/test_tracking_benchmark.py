@@ -160,7 +160,7 @@ def test_data_that_tell_no_friction_are_told(result: BenchmarkResult) -> None:
     simulation = result.run.simulations[0]
     run = DesignRun("PREHydrA", SPEC, result.run.evaluation, None, (_with(simulation, figures),), figures, OK)
     assert "do not tell the parameters: the simulated runs" in tracking_benchmark.friction_text(run, stand)
-    law = tracking_benchmark.actuator_of(SPEC).output_cylinder.friction
+    law = ACTUATOR.output_cylinder.friction
     assert cells(tracking_benchmark.friction.table(law, stand, figures), "c (s/m)")[3] == "–"
 
 
