@@ -84,6 +84,7 @@ def test_the_zero_and_the_state_at_the_start_are_found_where_asked_for() -> None
         identify_spring("hysteresis", data)
 
 
+@pytest.mark.full
 def test_intervals_cover_the_truth() -> None:
     """At 90 %, 24 noisy records: far from 21.6 of them would be intervals of the wrong width, for any parameter."""
     x = path(0.35e-3, 0.85e-3, 1.1e-3, rows=25)

@@ -1,5 +1,6 @@
 """A few kills of a sweep and of a search (all of them in tests/full/test_kills.py): nothing is lost or done twice."""
 
+import pytest
 from kills import contents, killed, undisturbed
 
 
@@ -12,6 +13,7 @@ def test_a_killed_sweep_ends_with_the_same_table(tmp_path):
     assert len(story.computed) - len(set(story.computed)) <= 2 * story.kills, "only what was in flight"
 
 
+@pytest.mark.full
 def test_a_killed_search_replays_to_the_same_table(tmp_path):
     """Catches a search that takes another way after a kill, and designs of the way so far computed again."""
     expected = undisturbed(tmp_path / "whole", "search 80")

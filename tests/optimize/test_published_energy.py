@@ -22,6 +22,7 @@ OBJECTIVE = 0.0881
 """Of the published design."""
 
 
+@pytest.mark.full
 def test_the_published_objective_is_bettered_within_the_quench_limit():
     """Catches a search that stops in the valley, or beyond a limit, before it is as good as what was published."""
     spec = load(EXAMPLES / "team22-published.toml")

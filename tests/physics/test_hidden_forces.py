@@ -73,6 +73,7 @@ def test_where_a_periodic_drawing_is_cut_does_not_matter() -> None:
     assert np.hypot(*(np.array(forces[0]) - forces[1])) < 2e-3 * np.hypot(*forces[0])
 
 
+@pytest.mark.full
 def test_iron_around_a_coil() -> None:
     """Catches currents forgotten where the weight on them is one all over: pot and coil push each other apart."""
     drawing = boxed(100.0, ((-20, 20), (-20, 20)), hollow=True)

@@ -62,6 +62,7 @@ SIZES = (0.4, 0.35, 0.45, 0.225, 0.9, 5.0)
 """Of the other solver's mesh, by label (mm)."""
 
 
+@pytest.mark.full
 def test_plunger_by_another_solver() -> None:
     """Catches a steel, a circuit or a force that another program reads differently: 1000 turns, 1.5 A, 1.2 T.
 
