@@ -92,7 +92,8 @@ def reached(content: ReportContent) -> Cell:
         return Cell("The search found no feasible design; the figures are the start’s.", "bad")
     if broken:
         names = listing(subject_label(content.spec, check.limit.subject) for check in broken)
-        return Cell(f"{len(broken)} of {len(checks)} requirements are not met: {names}.", "bad")
+        verb = "is" if len(broken) == 1 else "are"
+        return Cell(f"{len(broken)} of {len(checks)} requirements {verb} not met: {names}.", "bad")
     if not checks:
         return Cell("The design was evaluated; no requirement was set.", "warn" if design.warnings else "muted")
     open_ = sum(check.margin is None for check in checks)

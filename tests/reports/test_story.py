@@ -98,6 +98,13 @@ def test_noise_about_zero_is_zero(content: ReportContent) -> None:
     assert "−" not in table.rows[0][1].text
 
 
+@pytest.mark.parametrize("count, words", [(1, "1 of 2 requirements is not met: "), (2, "2 of 2 requirements are not")])
+def test_one_requirement_is_and_two_are(content: ReportContent, count: int, words: str) -> None:
+    checks = [dataclasses.replace(check, satisfied=k >= count) for k, check in enumerate(content.design_checks)]
+    given = dataclasses.replace(content, search=None, checks=tuple(checks))
+    assert story.reached(given).text.startswith(words)
+
+
 def test_warnings_stand_under_the_verdict(content: ReportContent) -> None:
     """Catches a design with magnets too hot that the page calls plainly good."""
     told = "At this temperature 12 % of the magnets’ volume is beyond its intrinsic coercivity."
