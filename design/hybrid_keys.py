@@ -6,6 +6,7 @@ from fluxbore.design.contact_force_keys import CONTACT_FORCE_KEYS
 from fluxbore.design.keys import Alternatives, Key
 from fluxbore.design.materials import Conductor, Material, PermanentMagnet
 from fluxbore.design.seal_keys import FIN_KEYS, SEAL_KEYS
+from fluxbore.design.solver_keys import solver_keys
 
 LARGEST_LENGTH = 10.0
 """m; beyond it a length is a slip of the unit, not an actuator."""
@@ -255,23 +256,7 @@ HYBRID_KEYS: tuple[Key, ...] = (
         maximum=1000,
         default=8,
     ),
-    Key(
-        "solver.mesh_refinement",
-        "finite-element mesh: 1 is the default mesh, 2 halves every element, 3 thirds it",
-        kind="integer",
-        minimum=1,
-        maximum=6,
-        default=1,
-    ),
-    Key(
-        "solver.tolerance",
-        "relative residual at which Newton's iteration stops",
-        kind="number",
-        above=0.0,
-        maximum=1e-2,
-        default=1e-8,
-    ),
-    Key("solver.max_iterations", "most Newton steps per position", kind="integer", minimum=1, maximum=500, default=60),
+    *solver_keys("position"),
     Key(
         "solver.factorisation",
         "sparse factorisation",

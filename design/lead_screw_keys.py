@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from fluxbore.design.force_benchmark_keys import FORCE_BENCHMARK_KEYS
 from fluxbore.design.keys import Alternatives, Key, Values
 from fluxbore.design.materials import Material, PermanentMagnet, SoftIron
+from fluxbore.design.solver_keys import solver_keys
 
 LARGEST_LENGTH = 10.0
 """m; beyond it a length is a slip of the unit, not an actuator."""
@@ -232,30 +233,7 @@ LEAD_SCREW_KEYS: tuple[Key, ...] = (
         maximum=1000.0,
         default=293.15,
     ),
-    Key(
-        "solver.mesh_refinement",
-        "finite-element mesh: 1 is the default mesh, 2 halves every element, 3 thirds it",
-        kind="integer",
-        minimum=1,
-        maximum=6,
-        default=1,
-    ),
-    Key(
-        "solver.tolerance",
-        "relative residual at which Newton's iteration stops",
-        kind="number",
-        above=0.0,
-        maximum=1e-2,
-        default=1e-8,
-    ),
-    Key(
-        "solver.max_iterations",
-        "most Newton steps per displacement",
-        kind="integer",
-        minimum=1,
-        maximum=500,
-        default=60,
-    ),
+    *solver_keys("displacement"),
     *FORCE_BENCHMARK_KEYS,
 )
 
