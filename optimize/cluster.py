@@ -91,28 +91,37 @@ class ClusterExecutor:
             raise FluxboreError("A function for a cluster must stand in a module that its workers can import.")
         run = uuid.uuid4().hex
         fresh = iter(enumerate(tasks))
-        flying: dict[Any, int] = {}  # future -> number of its task
+        flying: dict[Any, tuple[int, T]] = {}  # future -> the task with its number
+        suspects: list[tuple[int, T]] = []
+        lone: Any = None
         finished: SimpleQueue[Any] = SimpleQueue()
         self._last_seen = time.monotonic()
+
+        def submit(numbered: tuple[int, T], name: str) -> Any:
+            message = pickle.dumps((function, numbered[1]), protocol=pickle.HIGHEST_PROTOCOL)
+            call = _call("compute", run, self._program, message, self._time_limit)
+            future = self._client.submit(*call, key=f"fluxbore-{run}-{name}", pure=False)
+            flying[future] = numbered
+            future.add_done_callback(finished.put)
+            return future
+
         try:
             while True:
-                while len(flying) < _QUEUED * self.workers:
-                    index, task = next(fresh, (None, None))
-                    if index is None:
-                        break
-                    message = pickle.dumps((function, task), protocol=pickle.HIGHEST_PROTOCOL)
-                    name = f"fluxbore-{run}-{index}"
-                    future = self._client.submit(
-                        *_call("compute", run, self._program, message, self._time_limit), key=name, pure=False
-                    )
-                    flying[future] = index
-                    future.add_done_callback(finished.put)
+                while len(flying) < _QUEUED * self.workers and (numbered := next(fresh, None)) is not None:
+                    submit(numbered, str(numbered[0]))
                 if not flying:
-                    return
+                    if not suspects:
+                        return
+                    suspect = suspects.pop()
+                    lone = submit(suspect, f"{suspect[0]}-alone")
                 future = self._next(finished)
                 if future is None:
                     continue
-                outcome: Outcome[R] | None = self._outcome(flying[future], future)
+                if future is not lone and _is_suspect(future):
+                    # The scheduler blames all tasks of a dead worker; which of them it was shows when each is alone.
+                    suspects.append(flying.pop(future))
+                    continue
+                outcome: Outcome[R] | None = self._outcome(flying[future][0], future)
                 if outcome is None:
                     future.add_done_callback(finished.put)
                     continue
@@ -280,6 +289,15 @@ def _call(name: str, *arguments: object) -> tuple[Any, str, dict[str, object]]:
     return eval, f"{module}.{name}(*arguments)", {"arguments": arguments}
 
 
+def _is_suspect(future: Any) -> bool:
+    """Whether the task was given up because the workers that had it died."""
+    from distributed import KilledWorker
+
+    return future.status == "error" and isinstance(future.exception(), KilledWorker)
+
+
 def _killed(error: Any) -> str:
     times = int(error.allowed_failures) + 1
+    if times == 1:
+        return "A worker of the cluster died while it computed the design."
     return f"{times} workers of the cluster died, one after another, while they computed the design."

@@ -66,10 +66,10 @@ def stillborn(_connection):
 
 
 def kill_the_clusters_worker(kills):
-    """Take the process above with us, as a lack of memory may."""
+    """Take the process above with us, as a lack of memory may; the others are at work meanwhile."""
     if kills:
         os.kill(os.getppid(), signal.SIGKILL)
-        time.sleep(600)
+    time.sleep(600 if kills else 0.5)
     return kills
 
 
