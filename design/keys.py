@@ -54,7 +54,7 @@ class Key:
     @property
     def of_design(self) -> bool:
         """Whether it describes the design or its operating point: what a study may move and figures depend on."""
-        return self.name.partition(".")[0] not in ("solver", "benchmark")
+        return self.name.partition(".")[0] not in ("solver", "benchmark", "drawing")
 
     @property
     def leaf(self) -> str:

@@ -109,7 +109,7 @@ def _kind(raw: Mapping[str, Any], source: str) -> Kind:
 
 
 def _read(raw: Mapping[str, Any], kind: Kind, base: Path) -> Spec:
-    sections = {"actuator", "operating_point", "solver", "benchmark", "study", "materials"}
+    sections = {"actuator", "operating_point", "solver", "benchmark", "drawing", "study", "materials"}
     for section, content in raw.items():
         if section not in sections:
             hint = suggestion(section, [key.section for key in kind.keys])
@@ -127,7 +127,7 @@ def _read(raw: Mapping[str, Any], kind: Kind, base: Path) -> Spec:
     given: dict[str, Value] = {}
     notes: list[Note] = []
     known = {key.name: key for key in kind.keys}
-    for section in ("actuator", "operating_point", "solver", "benchmark"):
+    for section in ("actuator", "operating_point", "solver", "benchmark", "drawing"):
         _flatten(raw.get(section, {}), section, known, given, notes)
     for group in kind.alternatives:
         group.check(given)

@@ -23,6 +23,7 @@ from fluxbore.design.errors import SpecError
 from fluxbore.design.keys import Alternatives, Key, Value, Values
 from fluxbore.design.materials import Material
 from fluxbore.design.study import Study
+from fluxbore.design.title_block import DRAWING_KEYS
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,7 +61,7 @@ class Kind:
 KINDS: dict[str, Kind] = {
     "hybrid": Kind(
         "hybrid",
-        hybrid_keys.HYBRID_KEYS,
+        (*hybrid_keys.HYBRID_KEYS, *DRAWING_KEYS),
         hybrid_keys.HYBRID_ALTERNATIVES,
         hybrid_values.resolve,
         hybrid_values.from_values,
@@ -70,7 +71,7 @@ KINDS: dict[str, Kind] = {
     ),
     "coils": Kind(
         "coils",
-        coils_keys.COILS_KEYS,
+        (*coils_keys.COILS_KEYS, *DRAWING_KEYS),
         coils_keys.COILS_ALTERNATIVES,
         coils_values.resolve,
         coils_values.from_values,
@@ -79,7 +80,7 @@ KINDS: dict[str, Kind] = {
     ),
     "lead-screw": Kind(
         "lead-screw",
-        lead_screw_keys.LEAD_SCREW_KEYS,
+        (*lead_screw_keys.LEAD_SCREW_KEYS, *DRAWING_KEYS),
         lead_screw_keys.LEAD_SCREW_ALTERNATIVES,
         lead_screw_values.resolve,
         lead_screw_values.from_values,
@@ -89,7 +90,7 @@ KINDS: dict[str, Kind] = {
     ),
     "hydrostatic": Kind(
         "hydrostatic",
-        hydrostatic_keys.HYDROSTATIC_KEYS,
+        (*hydrostatic_keys.HYDROSTATIC_KEYS, *DRAWING_KEYS),
         hydrostatic_keys.HYDROSTATIC_ALTERNATIVES,
         hydrostatic_values.resolve,
         hydrostatic_values.from_values,

@@ -4,14 +4,19 @@ from __future__ import annotations
 
 from fluxbore.design.coils import CoilSystem
 from fluxbore.design.spec import Spec
-from fluxbore.geometry.assembly import Assembly, Colour, Part, rectangle
+from fluxbore.geometry.assembly import Assembly
+from fluxbore.geometry.outline import rectangle
+from fluxbore.geometry.part import Colour, Part
 
 COLOURS: tuple[Colour, Colour] = ((0.80, 0.36, 0.20), (0.30, 0.56, 0.76))
 """Of windings with current along +phi, and against it."""
 
 
-def assembly(spec: Spec) -> Assembly:
-    """The windings where they stand, each a solid ring. Raises DesignError where they do not fit one another."""
+def assembly(spec: Spec, place: float = 0.5) -> Assembly:
+    """The windings where they stand, each a solid ring; nothing moves, whatever the place in the stroke.
+
+    Raises DesignError where they do not fit one another.
+    """
     system: CoilSystem = spec.actuator
     return Assembly(
         system.name,

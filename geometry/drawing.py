@@ -18,11 +18,12 @@ from typing import Any
 
 from fluxbore.design.errors import MissingLibraryError
 from fluxbore.design.materials import Material
-from fluxbore.geometry.assembly import Assembly, Body
+from fluxbore.geometry.assembly import Assembly
 from fluxbore.geometry.drawing_detail import add_detail
 from fluxbore.geometry.drawing_lines import APPLICATION, MM, add_dimension, add_hatch, in_mm
 from fluxbore.geometry.drawing_sheet import add_sheet, program
 from fluxbore.geometry.measure import Measure, overall
+from fluxbore.geometry.part import Body
 from fluxbore.geometry.section import face, rims_beside, seen_behind
 
 TEXT_SHARE = 1 / 110

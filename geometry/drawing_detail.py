@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from fluxbore.geometry.assembly import Assembly, Point
+from fluxbore.geometry.assembly import Assembly
 from fluxbore.geometry.drawing_lines import MM, View, add_dimension, add_hatch, add_text, in_mm
 from fluxbore.geometry.measure import Detail
+from fluxbore.geometry.outline import Point
 from fluxbore.geometry.section import face
 
 SCALES = (1, 2, 5, 10, 20, 50, 100)

@@ -6,8 +6,9 @@ from collections.abc import Iterable, Sequence
 from typing import Any
 
 from fluxbore.design.errors import one_line
-from fluxbore.geometry.assembly import Body, Part, Point
 from fluxbore.geometry.measure import Measure
+from fluxbore.geometry.outline import Point
+from fluxbore.geometry.part import Body, Part
 
 MM = 1e3
 """Millimetres in a metre."""

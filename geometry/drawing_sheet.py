@@ -8,9 +8,10 @@ from typing import Any, NamedTuple
 
 from fluxbore.design.materials import Material
 from fluxbore.design.units import format_quantity
-from fluxbore.geometry.assembly import Assembly, Body
+from fluxbore.geometry.assembly import Assembly
 from fluxbore.geometry.drawing_lines import MM, add_text
 from fluxbore.geometry.mass import part_masses
+from fluxbore.geometry.part import Body
 from fluxbore.geometry.section import face
 
 HEAD = ("no.", "pieces", "part", "material", "mass", "note")

@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 
 from fluxbore.design.seal_gland import SealGland, gland_figures
-from fluxbore.geometry.assembly import Profile
+from fluxbore.geometry.outline import Profile
 
 CHORDS = 12
 """Of each rounded end; even."""

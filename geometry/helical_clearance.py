@@ -11,7 +11,8 @@ from itertools import combinations
 from typing import NamedTuple
 
 from fluxbore.geometry import unrolled
-from fluxbore.geometry.helical_part import RESOLUTION, HelicalPart, overlapping
+from fluxbore.geometry.helical_part import HelicalPart, overlapping
+from fluxbore.geometry.outline import RESOLUTION
 from fluxbore.geometry.unrolled import TURN, Outline
 
 

@@ -12,10 +12,11 @@ from typing import TYPE_CHECKING
 
 from fluxbore.design.errors import DesignError
 from fluxbore.geometry import unrolled
+from fluxbore.geometry.outline import RESOLUTION, Profile
 from fluxbore.geometry.unrolled import Outline
 
 if TYPE_CHECKING:
-    from fluxbore.geometry.assembly import Colour, Profile
+    from fluxbore.geometry.part import Colour
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,6 +40,7 @@ class HelicalPart:
     lead: float = 0.0
     note: str = ""
     fill: float = 1.0
+    bought: str = ""
 
     def __post_init__(self) -> None:
         if not 0 < self.inner_radius < self.outer_radius < math.inf:
@@ -70,10 +72,6 @@ class HelicalPart:
         """Along the axis at its middle (m)."""
         low, high = unrolled.reach(self.outline)
         return max(top - bottom for bottom, top in unrolled.spans(self.outline, (low + high) / 2))
-
-
-RESOLUTION = 1e-10
-"""m. Shorter overlaps are the rounding of coordinates that were meant to be equal."""
 
 
 def volume(part: HelicalPart) -> float:

@@ -18,7 +18,9 @@ from fluxbore.design.errors import DesignError
 from fluxbore.design.hybrid import PHASES, HybridActuator
 from fluxbore.design.units import format_quantity
 from fluxbore.design.winding import copper_fill
-from fluxbore.geometry.assembly import Assembly, Colour, Hole, Part, Profile, rectangle
+from fluxbore.geometry.assembly import Assembly
+from fluxbore.geometry.outline import Profile, rectangle
+from fluxbore.geometry.part import Colour, Hole, Part
 
 THINNEST = 1e-5
 """m. Nobody turns a thinner wall, and CAD kernels, which call points 1e-7 mm apart the same, are far from trouble."""

@@ -16,11 +16,13 @@ from fluxbore.design.hydrostatic_values import HydrostaticDesign
 from fluxbore.design.materials import Library
 from fluxbore.design.return_spring_mass import least_mass
 from fluxbore.design.units import format_quantity
-from fluxbore.geometry.assembly import Assembly, Colour, Hole, Part, rectangle
+from fluxbore.geometry.assembly import Assembly
 from fluxbore.geometry.gland_profile import ring_profile
 from fluxbore.geometry.hydrostatic_layout import RELIEF, SHANK, CylinderLayout, layout
 from fluxbore.geometry.mass import part_masses, total
 from fluxbore.geometry.measure import Detail, Measure, along, diameter
+from fluxbore.geometry.outline import rectangle
+from fluxbore.geometry.part import Colour, Hole, Part
 
 OUTPUT = "output_cylinder"
 

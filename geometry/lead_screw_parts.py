@@ -23,8 +23,10 @@ from fluxbore.design.lead_screw import Arcs, HelicalMagnets, LeadScrew
 from fluxbore.design.lead_screw_values import LeadScrewActuator
 from fluxbore.design.units import format_quantity
 from fluxbore.geometry import helix, unrolled
-from fluxbore.geometry.assembly import Assembly, Body, Colour, Part, rectangle
-from fluxbore.geometry.helical_part import RESOLUTION, HelicalPart
+from fluxbore.geometry.assembly import Assembly
+from fluxbore.geometry.helical_part import HelicalPart
+from fluxbore.geometry.outline import RESOLUTION, rectangle
+from fluxbore.geometry.part import Body, Colour, Part
 
 COLOURS: dict[str, Colour] = {
     "N": (0.72, 0.18, 0.16),

@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from fluxbore.design.materials import Material
-from fluxbore.geometry.assembly import Assembly, Body, mass, volume
+from fluxbore.geometry.assembly import Assembly
+from fluxbore.geometry.part import Body, mass, volume
 
 
 @dataclass(frozen=True, slots=True)

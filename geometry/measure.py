@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 from fluxbore.geometry.helical_part import HelicalPart
 
 if TYPE_CHECKING:
-    from fluxbore.geometry.assembly import Body, Point
+    from fluxbore.geometry.outline import Point
+    from fluxbore.geometry.part import Body
 
 FEW = 6
 """Parts that are measured one by one."""

@@ -12,8 +12,10 @@ from itertools import pairwise, product
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from fluxbore.geometry import unrolled
-from fluxbore.geometry.assembly import Assembly, Body, Hole, Part, Point
+from fluxbore.geometry.assembly import Assembly
 from fluxbore.geometry.helical_part import HelicalPart
+from fluxbore.geometry.outline import Point
+from fluxbore.geometry.part import Body, Hole, Part
 
 if TYPE_CHECKING:
     import shapely
@@ -74,6 +76,11 @@ def _half(part: Body, angle: float) -> list[Any]:
         if _in_plane(hole) and (math.cos(hole.angle) > 0) == (side > 0):
             low, high = sorted((side * hole.bottom, side * beyond))
             whole = whole.difference(shapely.box(hole.z - hole.diameter / 2, low, hole.z + hole.diameter / 2, high))
+    for beside in part.axial_holes:
+        if abs(math.sin(beside.angle)) < IN_PLANE and (math.cos(beside.angle) > 0) == (side > 0):
+            inner, outer = beside.radius - beside.diameter / 2, beside.radius + beside.diameter / 2
+            low, high = sorted((side * inner, side * outer))
+            whole = whole.difference(shapely.box(beside.start, low, beside.end, high))
     return [whole]
 
 

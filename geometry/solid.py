@@ -15,10 +15,11 @@ import numpy.typing as npt
 
 from fluxbore.design.errors import DesignError, MissingLibraryError
 from fluxbore.design.graphics import APT_LINE, has_gl
-from fluxbore.geometry.assembly import Assembly, Body, Colour, Hole, Part, volume
+from fluxbore.geometry.assembly import Assembly
 from fluxbore.geometry.helical_mesh import triangles
 from fluxbore.geometry.helical_part import HelicalPart
 from fluxbore.geometry.helical_solid import MILLIMETRE, helical_solid
+from fluxbore.geometry.part import AxialHole, Body, Colour, Hole, Part, volume
 
 if TYPE_CHECKING:
     import cadquery
@@ -80,6 +81,8 @@ def _turned(cq: ModuleType, part: Part, opening: float) -> cadquery.Solid:
     body = cq.Solid.revolve(wire, [], 360 - math.degrees(opening), cq.Vector(0, 0, 0), cq.Vector(0, 0, 1))
     for hole in part.holes:
         body = _one_solid(body.cut(_drill(cq, part, hole)), part)
+    for beside in part.axial_holes:
+        body = _one_solid(body.cut(_axial_drill(cq, beside)), part)
     return _one_solid(body, part)
 
 
@@ -126,6 +129,13 @@ def _drill(cq: ModuleType, part: Part, hole: Hole) -> cadquery.Solid:
     start = along * (hole.bottom / MILLIMETRE) + cq.Vector(0, 0, hole.z / MILLIMETRE)
     radius, length = hole.diameter / 2 / MILLIMETRE, (outside - hole.bottom) / MILLIMETRE
     return cq.Solid.makeCylinder(radius, length, start, along)
+
+
+def _axial_drill(cq: ModuleType, hole: AxialHole) -> cadquery.Solid:
+    x, y = hole.radius * math.cos(hole.angle), hole.radius * math.sin(hole.angle)
+    start = cq.Vector(x / MILLIMETRE, y / MILLIMETRE, hole.start / MILLIMETRE)
+    length = (hole.end - hole.start) / MILLIMETRE
+    return cq.Solid.makeCylinder(hole.diameter / 2 / MILLIMETRE, length, start, cq.Vector(0, 0, 1))
 
 
 def _one_solid(shape: cadquery.Shape, part: Part) -> cadquery.Solid:

@@ -17,7 +17,8 @@ from typing import TYPE_CHECKING, Any
 
 from fluxbore.design.errors import OutputError
 from fluxbore.design.units import format_quantity
-from fluxbore.geometry.assembly import Assembly, Colour
+from fluxbore.geometry.assembly import Assembly
+from fluxbore.geometry.part import Colour
 from fluxbore.geometry.solid import solid, tessellate
 from fluxbore.geometry.step_files import NEW, OLD, PARTS, is_own, own_files, remove_stale, scratch_prefix
 

@@ -8,8 +8,10 @@ from __future__ import annotations
 import math
 
 from fluxbore.geometry import unrolled
-from fluxbore.geometry.assembly import Assembly, Body, Profile
+from fluxbore.geometry.assembly import Assembly
 from fluxbore.geometry.helical_part import HelicalPart
+from fluxbore.geometry.outline import Profile
+from fluxbore.geometry.part import Body
 from fluxbore.reports.svg import Drawing, drawing, new_figure, style
 
 FEW = 6

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from fluxbore import hybrid_views, hydrostatic_views, lead_screw_views
 from fluxbore.design.spec import Spec
+from fluxbore.design.title_block import title_block
 from fluxbore.fem import femm_coils
 from fluxbore.geometry import coils
 from fluxbore.geometry.assembly import Assembly
@@ -30,7 +31,8 @@ if TYPE_CHECKING:
 class Actuator:
     """The verbs of one kind of actuator.
 
-    assembly : its parts where they stand in the middle of the stroke. words : what its report calls things.
+    assembly : its parts with the mover at a share of its stroke, 0 to 1; see `assembly_of`. words : what its report
+    calls things.
     flux_map : its field at no current, for a picture. slots : the slotted-slotless comparison. femm_model : its
     cross-section as a FEMM model. benchmarks : the experiments in simulated time that it can be put through, by name.
     screw : what a report shows of a magnetic lead screw alone, with its evaluation by finite elements. hydraulics :
@@ -38,7 +40,7 @@ class Actuator:
     What a kind does not have is None, or empty.
     """
 
-    assembly: Callable[[Spec], Assembly]
+    assembly: Callable[[Spec, float], Assembly]
     words: KindWords = PLAIN
     flux_map: Callable[[Spec], FluxMap | None] | None = None
     slots: Callable[[Spec], SlotComparison | None] | None = None
@@ -72,6 +74,20 @@ ACTUATORS: dict[str, Actuator] = {
     ),
 }
 """Every kind of actuator by its name in the specification."""
+
+
+MID_STROKE = 0.5
+
+STROKE_PLACES = {"mid-stroke": MID_STROKE, "retracted": 0.0, "extended": 1.0}
+"""Where CAD files show the mover: the share of its stroke."""
+
+
+def assembly_of(spec: Spec, place: float = MID_STROKE) -> Assembly:
+    """The parts with the mover at a share of its stroke, and with the specification's numbers and names.
+
+    Raises DesignError where the parts do not fit one another.
+    """
+    return replace(actuator_of(spec).assembly(spec, place), title=title_block(spec.values))
 
 
 def actuator_of(spec: Spec) -> Actuator:

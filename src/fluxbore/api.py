@@ -7,21 +7,18 @@ from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryFile
 from time import monotonic
-from typing import Literal
 
-from fluxbore.actuators import ACTUATORS, actuator_of
-from fluxbore.design.errors import FluxboreError, OutputError, SpecError
+from fluxbore.design.errors import FluxboreError, OutputError
 from fluxbore.design.spec import Spec
 from fluxbore.design_result import DesignResult, judged
 from fluxbore.design_steps import every_design, search_design, with_front, with_tolerances
 from fluxbore.evaluating import evaluate
-from fluxbore.geometry.step_files import own_files
+from fluxbore.exporting import STEP_SCHEMAS, export_files, write_cad
 from fluxbore.identifying import identify
 from fluxbore.optimize.evaluate import evaluate as evaluate_design
 from fluxbore.optimize.evaluation import Evaluation
 from fluxbore.optimize.evaluator import Evaluator
 from fluxbore.optimize.executor import Executor
-from fluxbore.optimize.folder import Folder, open_folder
 from fluxbore.optimize.journal import Journal
 from fluxbore.optimize.progress import Report as ProgressReport
 from fluxbore.optimize.search import check_study, one_at_a_time
@@ -58,24 +55,22 @@ Say = Callable[[str], None]
 
 
 def export(
-    spec: Spec | Path | str, folder: Path | str, *, force: bool = False, form: Literal["step", "dxf", "fem"] = "step"
+    spec: Spec | Path | str,
+    folder: Path | str,
+    *,
+    force: bool = False,
+    form: str | Sequence[str] = "step",
+    schema: str = STEP_SCHEMAS[0],
 ) -> list[Path]:
-    """Write the design as STEP, the assembly and a file for each part in ``parts``; as the drawing of its section in
-    DXF; or as a FEMM model of its field.
+    """Write the design's files: for a workshop, a printer, a viewer or another solver.
 
-    Raises MissingLibraryError where cadquery or libGL is missing, with the line that installs it; OutputError where
-    the folder holds other files and is not to be taken by ``force``; SpecError for a kind of actuator without a model.
+    form : a word of `fluxbore.exporting.WORDS` or several; "all" is every format that the kind has. schema : of STEP
+    files, "AP242" or "AP214". The whole is named as the design; what is one part's lies in ``parts``.
+    Raises MissingLibraryError where a library is missing, with the line that installs it; OutputError where the folder
+    holds other files and is not to be taken by ``force``; SpecError for a word that is no format, and for a kind of
+    actuator without such a file.
     """
-    spec = as_spec(spec)
-    if form == "fem":
-        return [_write_femm(spec, folder, force)]
-    if form == "dxf":
-        return [_write_dxf(spec, folder, force)]
-    from fluxbore.geometry.solid import load_cadquery
-
-    load_cadquery()  # before the folder is touched: without it there is nothing to write
-    with open_folder(folder, spec, force) as place:
-        return _write_cad(spec, place.path)
+    return export_files(as_spec(spec), folder, (form,) if isinstance(form, str) else form, schema=schema, force=force)
 
 
 def report(
@@ -138,8 +133,7 @@ def design(
         if found.search is None or found.search.chosen is not None:
             files.append(shop.folder.write(DESIGN_FILE, design_text(found.spec)))
             try:
-                files += _write_cad(found.spec, shop.folder.path / CAD_FOLDER)
-                files += _write_drawing(found.spec, shop.folder)
+                files += write_cad(found.spec, shop.folder, CAD_FOLDER)
             except FluxboreError as error:
                 found = replace(found, warnings=(*found.warnings, f"No CAD files: {error}"))
         replayed = found.search is not None and found.search.replayed
@@ -161,50 +155,6 @@ def _check_writable(folder: Path) -> None:
             pass
     except OSError as error:
         raise OutputError(f"{folder} cannot be written: {error.strerror or error}.") from error
-
-
-def _write_cad(spec: Spec, folder: Path) -> list[Path]:
-    from fluxbore.geometry.step import write_step
-
-    return write_step(actuator_of(spec).assembly(spec), folder)
-
-
-def _write_drawing(spec: Spec, folder: Folder) -> list[Path]:
-    """The section beside the STEP files, where the parts say how they are dimensioned."""
-    assembly = actuator_of(spec).assembly(spec)
-    if not assembly.measures:
-        return []
-    from fluxbore.geometry.drawing import dxf_text
-    from fluxbore.geometry.step import file_name
-
-    name = f"{file_name(assembly.name)}.dxf"
-    for path in own_files(folder.path / CAD_FOLDER, ".dxf"):
-        if path.name != name:
-            path.unlink()
-    return [folder.write(f"{CAD_FOLDER}/{name}", dxf_text(assembly, spec.materials))]
-
-
-def _write_dxf(spec: Spec, folder: Path | str, force: bool) -> Path:
-    from fluxbore.geometry.drawing import dxf_text
-    from fluxbore.geometry.step import file_name
-
-    assembly = actuator_of(spec).assembly(spec)
-    text = dxf_text(assembly, spec.materials)
-    with open_folder(folder, spec, force) as place:
-        return place.write(f"{file_name(assembly.name)}.dxf", text)
-
-
-def _write_femm(spec: Spec, folder: Path | str, force: bool) -> Path:
-    from fluxbore.fem.femm_writer import write_text
-    from fluxbore.geometry.step import file_name
-
-    make = actuator_of(spec).femm_model
-    if make is None:
-        able = " or ".join(f'"{kind}"' for kind, verbs in ACTUATORS.items() if verbs.femm_model is not None)
-        raise SpecError(f'actuator.kind must be {able} for a FEMM model; got "{spec.kind.name}".')
-    text = write_text(make(spec))
-    with open_folder(folder, spec, force) as place:
-        return place.write(f"{file_name(spec.word('actuator.name'))}.fem", text)
 
 
 def _evaluated(spec: Spec, journal: Journal | None, executor: Executor) -> Evaluation:

@@ -12,7 +12,7 @@ from collections.abc import Callable, Sequence
 from io import TextIOWrapper
 from typing import Any, NoReturn
 
-from fluxbore import __version__, identify_command, simulate_command, solve_command, study_command
+from fluxbore import __version__, export_command, identify_command, simulate_command, solve_command, study_command
 from fluxbore.design.errors import FluxboreError, one_line
 from fluxbore.exit_status import DONE, INPUT_WRONG, INTERRUPTED, NOT_VALID, PROGRAM_FAULT
 from fluxbore.spec_options import count, path_name, read_spec, with_spec
@@ -96,11 +96,7 @@ def _parser() -> argparse.ArgumentParser:
     for commands_of in (study_command, simulate_command, identify_command):
         commands_of.add_to(lambda name, run, text: add(name, answering(run), text))
 
-    export = with_spec(add("export", _export, "write the design as STEP files, a DXF section or a FEMM model"))
-    export.add_argument("-o", "--output", metavar="DIR", type=path_name, required=True, help="folder for the files")
-    export.add_argument("--format", choices=("step", "dxf", "fem"), default="step", help="default: step")
-    export.add_argument("--force", action="store_true", help="take a folder that holds other files")
-    export.add_argument("--json", action="store_true", help="print JSON")
+    export_command.add_to(add("export", _export, "write the design as files for a workshop or another program"))
 
     solve_command.add_to(add("solve", _solve, "solve a FEMM magnetics file (.fem)"), path_name, count)
     return parser
@@ -145,14 +141,11 @@ def _check(options: argparse.Namespace) -> int:
 
 
 def _export(options: argparse.Namespace) -> int:
-    from fluxbore.api import export
-
-    found = export(read_spec(options), options.output, force=options.force, form=options.format)
-    files = [str(path) for path in found]
-    if options.json:
-        _print_json({"status": "ok", "reasons": [], "files": files})
+    answer = export_command.run(options)
+    if isinstance(answer, str):
+        print(answer)
     else:
-        print("\n".join(files))
+        _print_json(answer)
     return DONE
 
 

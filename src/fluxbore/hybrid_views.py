@@ -17,10 +17,10 @@ if TYPE_CHECKING:
     from fluxbore.reports.content import FluxMap, SlotComparison
 
 
-def assembly(spec: Spec) -> Assembly:
-    """The parts where they stand in the middle of the stroke. Raises DesignError where they do not fit."""
+def assembly(spec: Spec, place: float = 0.5) -> Assembly:
+    """The parts with the mover at this share of its stroke. Raises DesignError where they do not fit."""
     actuator: HybridActuator = spec.actuator
-    return hybrid_parts.assembly(actuator, actuator.mid_stroke)
+    return hybrid_parts.assembly(actuator, actuator.mid_stroke + (place - 0.5) * actuator.mover.stroke)
 
 
 def flux_map(spec: Spec) -> FluxMap | None:

@@ -38,10 +38,10 @@ LONGEST_SHOWN = 20.0
 """s, of a period that is simulated for a picture."""
 
 
-def assembly(spec: Spec) -> Assembly:
-    """The parts with the piston in the middle of its stroke. Raises DesignError where they do not fit."""
+def assembly(spec: Spec, place: float = 0.5) -> Assembly:
+    """The parts with the piston at this share of its stroke. Raises DesignError where they do not fit."""
     design: HydrostaticDesign = spec.actuator
-    return hydrostatic_parts.assembly(design, design.bare.output_cylinder.stroke / 2)
+    return hydrostatic_parts.assembly(design, place * design.bare.output_cylinder.stroke)
 
 
 def hydraulics(spec: Spec, design: Evaluation) -> HydraulicsContent | None:
@@ -69,7 +69,7 @@ def hydraulics(spec: Spec, design: Evaluation) -> HydraulicsContent | None:
         lookup(str(spec.values[key]), key, spec.materials, Substance)
         for key in ("actuator.output_cylinder.material", "actuator.output_cylinder.rod")
     )
-    rows = part_masses(assembly(spec), spec.materials)
+    rows = part_masses(assembly(spec, 0.5), spec.materials)
     return HydraulicsContent(
         actuator,
         found.performance,

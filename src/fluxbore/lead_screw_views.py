@@ -27,10 +27,10 @@ SAMPLES = 121
 STALL_FORCE = "benchmark.force.stall_force"
 
 
-def assembly(spec: Spec) -> Assembly:
-    """The parts where they stand in the middle of the stroke. Raises DesignError where they do not fit."""
+def assembly(spec: Spec, place: float = 0.5) -> Assembly:
+    """The parts with the rotor at this share of its stroke. Raises DesignError where they do not fit."""
     actuator: LeadScrewActuator = spec.actuator
-    return lead_screw_parts.assembly(actuator)
+    return lead_screw_parts.assembly(actuator, (place - 0.5) * actuator.stroke)
 
 
 def screw_content(spec: Spec, design: Evaluation) -> ScrewContent | None:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from fluxbore.actuators import actuator_of
+from fluxbore.actuators import actuator_of, assembly_of
 from fluxbore.design.spec import Spec
 from fluxbore.design_result import DesignResult
 from fluxbore.optimize.evaluate import evaluate as evaluate_design
@@ -34,7 +34,7 @@ def write_report_file(
     final, found = findings.spec, design_evaluation(spec, findings)
     studied = findings.search is not None and findings.search.chosen is not None
     views = actuator_of(final)
-    parts = views.assembly(final)
+    parts = assembly_of(final)
     start = findings.search.start.evaluation if findings.search is not None else found
     content = ReportContent(
         spec=spec,

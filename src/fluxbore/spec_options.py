@@ -91,10 +91,10 @@ def path_name(text: str) -> str:
 
 def read_spec(options: argparse.Namespace) -> Spec:
     """The specification that the options name, with their values set."""
-    from fluxbore.actuators import actuator_of
+    from fluxbore.actuators import assembly_of
     from fluxbore.design.spec import load
 
     spec = load(options.spec, assignments(options.set, 'actuator.mover.ring_width="2 mm"'))
     # Parts that overlap in the drawing alone are wrong input too; a study's designs are judged one by one instead.
-    actuator_of(spec).assembly(spec)
+    assembly_of(spec)
     return spec

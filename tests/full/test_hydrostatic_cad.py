@@ -10,11 +10,12 @@ import numpy as np
 import pytest
 
 import fluxbore
-from fluxbore.actuators import actuator_of
+from fluxbore.actuators import assembly_of
 from fluxbore.design import graphics
 from fluxbore.design.errors import DesignError
 from fluxbore.design.spec import load, loads
 from fluxbore.geometry import assembly as geometry
+from fluxbore.geometry import part as parts_of
 from fluxbore.geometry import step
 from fluxbore.geometry.drawing import dxf_document
 from fluxbore.geometry.mass import envelope
@@ -61,7 +62,7 @@ def test_random_cylinders_are_drawn_right_or_refused() -> None:
         values = random_values(rng)
         try:
             spec = load(PREHYDRA, values)
-            whole = actuator_of(spec).assembly(spec)
+            whole = assembly_of(spec)
         except DesignError as error:
             sentences.append(str(error))
             continue
@@ -72,7 +73,7 @@ def test_random_cylinders_are_drawn_right_or_refused() -> None:
         for part in whole.parts:
             body = solid(part)
             assert is_closed(body)
-            assert kernel_volume(body) == pytest.approx(geometry.volume(part), rel=1e-5), (part.name, values)
+            assert kernel_volume(body) == pytest.approx(parts_of.volume(part), rel=1e-5), (part.name, values)
         assert not dxf_document(whole, spec.materials).audit().errors
     assert min(drawn, len(sentences)) > 100
     assert all(text.startswith("actuator.") and text.endswith(".") and "\n" not in text for text in sentences)
@@ -82,7 +83,7 @@ def test_step_files_come_back_whole_named_and_as_heavy(tmp_path: Path) -> None:
     import cadquery
 
     spec = load(PREHYDRA)
-    whole = actuator_of(spec).assembly(spec)
+    whole = assembly_of(spec)
     files = step.write_step(whole, tmp_path / "cad")
     assert [file.stem for file in files[1:]] == [
         "cylinder-tube", "end-cap-cap-end", "bleed-screw", "end-cap-rod-end", "piston", "o-ring", "rod",
@@ -94,7 +95,7 @@ def test_step_files_come_back_whole_named_and_as_heavy(tmp_path: Path) -> None:
         body = back[part.name].obj
         assert body.isValid()
         assert is_closed(body)
-        assert kernel_volume(body) == pytest.approx(geometry.volume(part), rel=1e-6)
+        assert kernel_volume(body) == pytest.approx(parts_of.volume(part), rel=1e-6)
         assert back[part.name].color.toTuple()[:3] == pytest.approx(part.colour, abs=2e-3)
     assert root.toCompound().BoundingBox().ylen * MM == pytest.approx(envelope(whole)[0], abs=1e-6)
     bodies = {name: child.obj for name, child in back.items()}

@@ -6,10 +6,11 @@ from pathlib import Path
 
 import pytest
 
-from fluxbore.actuators import actuator_of
+from fluxbore.actuators import assembly_of
 from fluxbore.design import graphics
 from fluxbore.design.spec import load
 from fluxbore.geometry import assembly as geometry
+from fluxbore.geometry import part as parts_of
 from fluxbore.geometry import step
 from fluxbore.geometry.solid import is_closed, kernel_volume
 
@@ -31,7 +32,7 @@ def test_every_piece_comes_back(tmp_path: Path, overrides: dict[str, str]) -> No
     import cadquery
 
     spec = load(Path(__file__).parents[2] / "examples" / "rotlin.toml", overrides)
-    whole = actuator_of(spec).assembly(spec)
+    whole = assembly_of(spec)
     assert geometry.interferences(whole) == ()
     paths = step.write_step(whole, tmp_path / "cad")
     root = cadquery.Assembly.importStep(str(paths[0]))
@@ -42,8 +43,8 @@ def test_every_piece_comes_back(tmp_path: Path, overrides: dict[str, str]) -> No
             assert len(body.Solids()) == 1
             assert body.isValid()
             assert is_closed(body)
-            assert kernel_volume(body) == pytest.approx(geometry.volume(part), rel=1e-6)
+            assert kernel_volume(body) == pytest.approx(parts_of.volume(part), rel=1e-6)
             centre = cadquery.Shape.centerOfMass(body)
-            exact = geometry.centre_of_mass(part)
+            exact = parts_of.centre_of_mass(part)
             # The kernel's quick rule for centres is right to a few parts in ten thousand of a helix's radius.
             assert (centre.x * 1e-3, centre.y * 1e-3, centre.z * 1e-3) == pytest.approx(exact, abs=2e-5)

@@ -7,30 +7,34 @@ from scipy import integrate
 
 from fluxbore.design.errors import DesignError
 from fluxbore.geometry import assembly as geometry
-from fluxbore.geometry.assembly import Assembly, Hole, Part, rectangle
+from fluxbore.geometry import outline
+from fluxbore.geometry import part as parts_of
+from fluxbore.geometry.assembly import Assembly
+from fluxbore.geometry.outline import rectangle
+from fluxbore.geometry.part import Hole, Part
 
 GREY = (0.5, 0.5, 0.5)
 
 
-def turned(profile: geometry.Profile, *holes: Hole, name: str = "thing") -> Part:
+def turned(profile: outline.Profile, *holes: Hole, name: str = "thing") -> Part:
     return Part(name, "thing", "stator", "steel", GREY, profile, holes)
 
 
 def test_the_volume_of_a_ring_and_a_cone_are_the_textbooks() -> None:
     """Catches a wrong moment in the boundary integral, also far from z = 0, where differences cancel."""
     ring = turned(rectangle(0.004, 0.008, 5.0, 5.01))
-    assert geometry.volume(ring) == pytest.approx(math.pi * (0.008**2 - 0.004**2) * 0.01, rel=1e-12)
-    assert geometry.centre_of_mass(ring) == pytest.approx((0, 0, 5.005), abs=1e-12)
+    assert parts_of.volume(ring) == pytest.approx(math.pi * (0.008**2 - 0.004**2) * 0.01, rel=1e-12)
+    assert parts_of.centre_of_mass(ring) == pytest.approx((0, 0, 5.005), abs=1e-12)
     cone = turned(((0, 0), (0.01, 0), (0, 0.03)))
-    assert geometry.volume(cone) == pytest.approx(math.pi * 0.01**2 * 0.03 / 3, rel=1e-14)
-    assert geometry.centre_of_mass(cone) == pytest.approx((0, 0, 0.03 / 4), abs=1e-15)
-    assert geometry.mass(cone, 7850) == pytest.approx(7850 * math.pi * 1e-6, rel=1e-14)
+    assert parts_of.volume(cone) == pytest.approx(math.pi * 0.01**2 * 0.03 / 3, rel=1e-14)
+    assert parts_of.centre_of_mass(cone) == pytest.approx((0, 0, 0.03 / 4), abs=1e-15)
+    assert parts_of.mass(cone, 7850) == pytest.approx(7850 * math.pi * 1e-6, rel=1e-14)
 
 
 def test_a_drilling_as_wide_as_its_rod_takes_half_of_steinmetz_solid() -> None:
     """Two cylinders of radius R share 16/3 R^3 (Archimedes); drilled to the axis, half of it. Worst case at the rim."""
     rod, radius = rectangle(0, 0.01, -0.03, 0.03), 0.01
-    gone = geometry.volume(turned(rod)) - geometry.volume(turned(rod, Hole(0.002, 2 * radius)))
+    gone = parts_of.volume(turned(rod)) - parts_of.volume(turned(rod, Hole(0.002, 2 * radius)))
     assert gone == pytest.approx(8 / 3 * radius**3, rel=1e-7)
 
 
@@ -47,7 +51,7 @@ def test_the_quadrature_of_a_drilling_is_good_to_a_millionth(bottom: float) -> N
 
     expected, _ = integrate.dblquad(chord, -half, half, lambda z: -rim(z), rim, epsabs=0, epsrel=1e-9)
     tube = rectangle(bore, outside, 0, 0.04)
-    gone = geometry.volume(turned(tube)) - geometry.volume(turned(tube, Hole(0.02, 2 * half, 1.0, bottom)))
+    gone = parts_of.volume(turned(tube)) - parts_of.volume(turned(tube, Hole(0.02, 2 * half, 1.0, bottom)))
     assert gone == pytest.approx(expected, rel=1e-6)
 
 
@@ -55,8 +59,8 @@ def test_a_drilling_moves_the_centre_of_mass_away_from_itself() -> None:
     """A narrow hole is a pin of known volume and centre; catches a sign or an angle the wrong way round."""
     rod, narrow, angle = rectangle(0, 0.01, 0, 0.04), 2e-4, 2.0
     pin = math.pi * (narrow / 2) ** 2 * 0.01
-    x, y, z = geometry.centre_of_mass(turned(rod, Hole(0.03, narrow, angle)))
-    left = geometry.volume(turned(rod)) - pin
+    x, y, z = parts_of.centre_of_mass(turned(rod, Hole(0.03, narrow, angle)))
+    left = parts_of.volume(turned(rod)) - pin
     assert x == pytest.approx(-math.cos(angle) * pin * 0.005 / left, rel=1e-3)
     assert y == pytest.approx(-math.sin(angle) * pin * 0.005 / left, rel=1e-3)
     assert z - 0.02 == pytest.approx(-pin * 0.01 / left, rel=1e-3)
@@ -66,16 +70,16 @@ def test_the_shared_volume_of_crossing_profiles_is_exact() -> None:
     """A rod through a cone; catches slabs that are cut at vertices only and not where edges cross."""
     cone, rod = ((0.0, 0.0), (0.01, 0.0), (0.0, 0.01)), rectangle(0, 0.004, -1, 1)
     expected = math.pi * 0.004**2 * 0.006 + math.pi * 0.004**3 / 3
-    assert geometry.overlap(cone, rod) == pytest.approx(expected, rel=1e-13)
-    assert geometry.overlap(rod, cone) == pytest.approx(expected, rel=1e-13)
-    assert geometry.overlap(cone, cone) == pytest.approx(math.pi * 1e-6 / 3, rel=1e-13)
+    assert outline.overlap(cone, rod) == pytest.approx(expected, rel=1e-13)
+    assert outline.overlap(rod, cone) == pytest.approx(expected, rel=1e-13)
+    assert outline.overlap(cone, cone) == pytest.approx(math.pi * 1e-6 / 3, rel=1e-13)
 
 
 def test_a_profile_with_a_recess_holds_another_without_sharing_it() -> None:
     """Catches an even-odd rule that fills the recess of a profile that is not convex."""
     cup = ((0.0, 0.0), (0.01, 0.0), (0.01, 0.02), (0.008, 0.02), (0.008, 0.002), (0.0, 0.002))
-    assert geometry.overlap(cup, rectangle(0, 0.008, 0.002, 0.03)) == 0
-    deeper = geometry.overlap(cup, rectangle(0, 0.008, 0.001, 0.03))
+    assert outline.overlap(cup, rectangle(0, 0.008, 0.002, 0.03)) == 0
+    deeper = outline.overlap(cup, rectangle(0, 0.008, 0.001, 0.03))
     assert deeper == pytest.approx(math.pi * 0.008**2 * 0.001, rel=1e-12)
 
 
@@ -109,6 +113,6 @@ def test_interferences_tell_designed_squeezes_from_mistakes() -> None:
         ((0.0, 0.0), (0.01, 0.0)),
     ],
 )
-def test_an_outline_that_is_no_simple_polygon_is_refused(profile: geometry.Profile) -> None:
+def test_an_outline_that_is_no_simple_polygon_is_refused(profile: outline.Profile) -> None:
     with pytest.raises(DesignError, match="outline of the thing"):
         turned(profile)

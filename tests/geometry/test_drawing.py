@@ -9,17 +9,19 @@ import ezdxf
 import pytest
 import shapely
 
-from fluxbore.actuators import actuator_of
+from fluxbore.actuators import assembly_of
 from fluxbore.cli import main
 from fluxbore.design.materials import standard
 from fluxbore.design.spec import Spec, load
 from fluxbore.geometry import section, step_files
-from fluxbore.geometry.assembly import Assembly, Hole, Part, rectangle
+from fluxbore.geometry.assembly import Assembly
 from fluxbore.geometry.drawing import dxf_text
 from fluxbore.geometry.drawing_lines import APPLICATION
 from fluxbore.geometry.helical_part import HelicalPart
 from fluxbore.geometry.mass import part_masses, total
 from fluxbore.geometry.measure import overall
+from fluxbore.geometry.outline import rectangle
+from fluxbore.geometry.part import Hole, Part
 
 MM = 1e-3
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -53,7 +55,7 @@ def spec() -> Spec:
 
 @pytest.fixture(scope="module")
 def whole(spec: Spec) -> Assembly:
-    return actuator_of(spec).assembly(spec)
+    return assembly_of(spec)
 
 
 @pytest.fixture(scope="module")
@@ -182,7 +184,7 @@ def test_solid_bars_are_not_hatched(spec: Spec, whole: Assembly) -> None:
 @pytest.mark.parametrize("name", ["ipehla", "team22", "rotlin"])
 def test_other_kinds_are_drawn_with_the_sizes_of_their_parts(name: str) -> None:
     other = load(EXAMPLES / f"{name}.toml")
-    found = actuator_of(other).assembly(other)
+    found = assembly_of(other)
     measures = overall(found.parts, 1.0)
     spans = {round(measure.length, 9) for measure in measures}
     longest = max(part.profile[2][1] - part.profile[0][1] for part in found.parts if len(part.profile) == 4)

@@ -24,9 +24,11 @@ from fluxbore.design.return_spring_mass import (
 from fluxbore.design.seal_gland import SealGland, gland_figures
 from fluxbore.design.spec import Spec, load
 from fluxbore.geometry import assembly as geometry
-from fluxbore.geometry import hydrostatic_parts
-from fluxbore.geometry.assembly import Assembly, Part, interferences
+from fluxbore.geometry import hydrostatic_parts, outline
+from fluxbore.geometry import part as parts_of
+from fluxbore.geometry.assembly import Assembly, interferences
 from fluxbore.geometry.gland_profile import ring_profile
+from fluxbore.geometry.part import Part
 
 MM = 1e-3
 PREHYDRA = Path(__file__).parents[2] / "examples" / "prehydra.toml"
@@ -49,7 +51,7 @@ def drawn(values: dict[str, str]) -> Assembly:
     return actuator_of(found).assembly(found)
 
 
-def radii(part: geometry.Body, z: float) -> list[float]:
+def radii(part: parts_of.Body, z: float) -> list[float]:
     """Where a horizontal line crosses the outline, from the axis outwards."""
     corners = (*part.profile, part.profile[0])
     pairs = itertools.pairwise(corners)
@@ -101,7 +103,7 @@ def test_the_position_is_within_the_stroke(spec: Spec) -> None:
         hydrostatic_parts.assembly(spec.actuator, 160 * MM)
 
 
-def area(profile: geometry.Profile) -> float:
+def area(profile: outline.Profile) -> float:
     following = (*profile[1:], profile[0])
     return abs(sum(r0 * z1 - r1 * z0 for (r0, z0), (r1, z1) in zip(profile, following, strict=True))) / 2
 
@@ -126,10 +128,10 @@ def test_masses_are_density_times_what_was_added_by_hand(spec: Spec) -> None:
     place = {part.name: part for part in hydrostatic_parts.assembly(spec.actuator, 0.0).parts}
     steel, brass = spec.materials["stainless steel 304"].density, spec.materials["brass"].density
     rod = math.pi / 4 * MM**3 * (3.81**2 * 9 + 6.35**2 * (152.4 + 5.005 + 15 + 1.5 * 6.35))
-    assert geometry.mass(place["rod"], steel) == pytest.approx(steel * rod, rel=1e-9)
+    assert parts_of.mass(place["rod"], steel) == pytest.approx(steel * rod, rel=1e-9)
     tube = math.pi / 4 * MM**3 * (15.9**2 - 14.3**2) * (152.4 + 12 + 2 * 5.005)
-    assert geometry.mass(place["cylinder tube"], brass) == pytest.approx(brass * tube, rel=1e-9)
-    moving = sum(geometry.mass(place[name], spec.materials[place[name].material].density) for name in
+    assert parts_of.mass(place["cylinder tube"], brass) == pytest.approx(brass * tube, rel=1e-9)
+    moving = sum(parts_of.mass(place[name], spec.materials[place[name].material].density) for name in
                  ("piston", "O-ring", "rod"))  # fmt: skip
     assert masses["output_cylinder.moving_mass"] == pytest.approx(moving)
     assert masses["output_cylinder.mass"] > moving + brass * tube

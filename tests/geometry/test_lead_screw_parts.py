@@ -19,10 +19,12 @@ from fluxbore.design.lead_screw_figures import mover_mass, rotor_mass, translato
 from fluxbore.design.spec import Spec, load
 from fluxbore.geometry import assembly as geometry
 from fluxbore.geometry import helical_clearance, lead_screw_parts, step, unrolled
+from fluxbore.geometry import part as parts_of
 from fluxbore.geometry import solid as solids
-from fluxbore.geometry.assembly import Assembly, Part
+from fluxbore.geometry.assembly import Assembly
 from fluxbore.geometry.helical_part import HelicalPart
 from fluxbore.geometry.mass import part_masses, total
+from fluxbore.geometry.part import Part
 from fluxbore.reports.section_drawing import section
 
 MM = 1e-3
@@ -263,10 +265,10 @@ def test_solids_are_what_the_outlines_say(short: dict[str, Assembly], form: str)
         assert body.isValid()
         assert solids.is_closed(body)
         BRepGProp.VolumeProperties_s(body.wrapped, properties, 1e-9)
-        assert properties.Mass() * MM**3 == pytest.approx(geometry.volume(part), rel=1e-8)
+        assert properties.Mass() * MM**3 == pytest.approx(parts_of.volume(part), rel=1e-8)
         middle = properties.CentreOfMass()
         found = (middle.X() * MM, middle.Y() * MM, middle.Z() * MM)
-        assert found == pytest.approx(geometry.centre_of_mass(part), abs=1e-10)
+        assert found == pytest.approx(parts_of.centre_of_mass(part), abs=1e-10)
 
 
 @needs_gl
@@ -289,13 +291,13 @@ def test_step_files_come_back_as_they_were(short: dict[str, Assembly], tmp_path:
             assert len(body.Solids()) == 1
             assert body.isValid()
             assert solids.is_closed(body)
-            assert solids.kernel_volume(body) == pytest.approx(geometry.volume(part), rel=1e-6)
+            assert solids.kernel_volume(body) == pytest.approx(parts_of.volume(part), rel=1e-6)
             box = body.BoundingBox()
             low, high = min(z for _, z in part.profile), max(z for _, z in part.profile)
             assert (box.zmin * MM, box.zmax * MM) == pytest.approx((low, high), abs=1e-6)
         assert len(paths) == 1 + len(whole.parts)
         alone = cadquery.importers.importStep(str(paths[1 + list(kinds).index(whole.parts[2].role)])).val()
-        assert solids.kernel_volume(alone) == pytest.approx(geometry.volume(whole.parts[2]), rel=1e-6)
+        assert solids.kernel_volume(alone) == pytest.approx(parts_of.volume(whole.parts[2]), rel=1e-6)
 
 
 @needs_gl

@@ -12,9 +12,11 @@ from fluxbore.design import graphics
 from fluxbore.design.errors import DesignError, MissingLibraryError
 from fluxbore.design.hybrid import HybridActuator
 from fluxbore.geometry import assembly as geometry
-from fluxbore.geometry import hybrid_parts
+from fluxbore.geometry import hybrid_parts, outline
+from fluxbore.geometry import part as parts_of
 from fluxbore.geometry import solid as solids
-from fluxbore.geometry.assembly import Hole, Part, rectangle
+from fluxbore.geometry.outline import rectangle
+from fluxbore.geometry.part import Hole, Part
 
 MM = 1e-3
 
@@ -30,7 +32,7 @@ def variant(**sections: dict[str, Any]) -> HybridActuator:
     return dataclasses.replace(actuator, **new)
 
 
-def part(profile: geometry.Profile, *holes: Hole) -> Part:
+def part(profile: outline.Profile, *holes: Hole) -> Part:
     return Part("block", "block", "stator", "steel", (0.5, 0.5, 0.5), profile, holes)
 
 
@@ -60,7 +62,7 @@ def test_every_solid_is_valid_closed_and_as_large_as_arithmetic_says(case: str) 
         assert len(body.Solids()) == 1
         assert body.isValid()
         assert solids.is_closed(body)
-        assert solids.kernel_volume(body) == pytest.approx(geometry.volume(one), rel=1e-6 if one.holes else 1e-9)
+        assert solids.kernel_volume(body) == pytest.approx(parts_of.volume(one), rel=1e-6 if one.holes else 1e-9)
         low, high = min(z for _, z in one.profile), max(z for _, z in one.profile)
         box = body.BoundingBox()
         assert (box.zmin * MM, box.zmax * MM) == pytest.approx((low, high), abs=1e-6)
@@ -74,11 +76,11 @@ def test_a_drilling_lies_where_it_was_put() -> None:
 
     drilled = part(rectangle(0.004, 0.015, 0.0, 0.03), Hole(0.02, 0.006, 2.2, 0.007), Hole(0.006, 0.004, -0.4))
     body, properties = solids.solid(drilled), GProp_GProps()
-    assert solids.kernel_volume(body) == pytest.approx(geometry.volume(drilled), rel=1e-6)
+    assert solids.kernel_volume(body) == pytest.approx(parts_of.volume(drilled), rel=1e-6)
     BRepGProp.VolumeProperties_s(body.wrapped, properties, 1e-9)
     centre = properties.CentreOfMass()
     found = (centre.X() * MM, centre.Y() * MM, centre.Z() * MM)
-    assert found == pytest.approx(geometry.centre_of_mass(drilled), abs=1e-8)
+    assert found == pytest.approx(parts_of.centre_of_mass(drilled), abs=1e-8)
 
 
 @needs_gl
@@ -95,7 +97,7 @@ def test_an_opening_takes_its_share_of_the_revolution() -> None:
     ring = part(rectangle(0.004, 0.008, 0, 0.01))
     for opening, left in ((math.pi / 2, 0.75), (math.pi, 0.5)):
         body = solids.solid(ring, opening)
-        assert solids.kernel_volume(body) == pytest.approx(left * geometry.volume(ring), rel=1e-9)
+        assert solids.kernel_volume(body) == pytest.approx(left * parts_of.volume(ring), rel=1e-9)
     meshes = solids.tessellate(geometry.Assembly("a", (ring,), 0.0), 1e-5, cut_away=True)
     middles = meshes[0].vertices[meshes[0].triangles].mean(axis=1)
     assert not ((middles[:, 0] > 1e-6) & (middles[:, 1] > 1e-6)).any()

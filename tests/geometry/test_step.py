@@ -14,9 +14,11 @@ from actuators import table_ii
 
 from fluxbore.design import graphics
 from fluxbore.design.errors import OutputError
-from fluxbore.geometry import assembly as geometry
 from fluxbore.geometry import hybrid_parts, step, step_files
-from fluxbore.geometry.assembly import Assembly, Part, rectangle
+from fluxbore.geometry import part as parts_of
+from fluxbore.geometry.assembly import Assembly
+from fluxbore.geometry.outline import rectangle
+from fluxbore.geometry.part import Part
 from fluxbore.geometry.solid import is_closed, kernel_volume
 
 MM = 1e-3
@@ -24,7 +26,7 @@ MM = 1e-3
 pytestmark = pytest.mark.skipif(not graphics.has_gl(), reason=f"libGL is missing: {graphics.APT_LINE}")
 
 
-def block(name: str, group: str = "stator", colour: geometry.Colour = (0.2, 0.4, 0.6)) -> Part:
+def block(name: str, group: str = "stator", colour: parts_of.Colour = (0.2, 0.4, 0.6)) -> Part:
     return Part(name, "block", group, "steel", colour, rectangle(0, 0.01, 0, 0.02))
 
 
@@ -43,7 +45,7 @@ def check(body: Any, part: Part) -> None:
     assert len(body.Solids()) == 1
     assert body.isValid()
     assert is_closed(body)
-    assert kernel_volume(body) == pytest.approx(geometry.volume(part), rel=1e-4 if part.holes else 1e-6)
+    assert kernel_volume(body) == pytest.approx(parts_of.volume(part), rel=1e-4 if part.holes else 1e-6)
     assert body.BoundingBox().zmin * MM == pytest.approx(min(z for _, z in part.profile), abs=1e-6)
 
 
@@ -184,7 +186,9 @@ KILLED = """
 import os, signal, sys
 from pathlib import Path
 from fluxbore.geometry import step
-from fluxbore.geometry.assembly import Assembly, Part, rectangle
+from fluxbore.geometry.assembly import Assembly
+from fluxbore.geometry.outline import rectangle
+from fluxbore.geometry.part import Part
 step._move = lambda *_: os.kill(os.getpid(), signal.SIGKILL)
 part = Part("b", "block", "stator", "steel", (0.2, 0.4, 0.6), rectangle(0, 0.01, 0, 0.02))
 step.write_step(Assembly("a", (part,), 0.0), Path(sys.argv[1]))

@@ -11,7 +11,9 @@ import pytest
 from fluxbore.design.performance import Performance
 from fluxbore.design.spec import KINDS, Note, Spec
 from fluxbore.design.study import Axis, Constraint, Objective, Study, Sweep, Variable
-from fluxbore.geometry.assembly import Assembly, Part, rectangle
+from fluxbore.geometry.assembly import Assembly
+from fluxbore.geometry.outline import rectangle
+from fluxbore.geometry.part import Part
 from fluxbore.optimize.evaluation import NOT_CONVERGED, OK, Evaluation, PositionResult, failure
 from fluxbore.optimize.outcome import Candidate, Check, Limit, SearchResult, SweepResult, SweepRow
 from fluxbore.reports.content import FluxMap, PartRow, Picture, ReportContent, SlotComparison
