@@ -32,14 +32,12 @@ from fluxbore.reports import (
 )
 from fluxbore.reports.content import ReportContent
 from fluxbore.reports.key_labels import FRAGMENTS
+from fluxbore.reports.scripts import Data, Script, load, policy
 from fluxbore.reports.svg import Drawing
 from fluxbore.reports.wording import capital, duration, greek, key_label, symbol
 
 if TYPE_CHECKING:
     from markupsafe import Markup
-
-POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'"
-"""The page may load nothing and run nothing; pictures are part of it."""
 
 _HERE = Path(__file__).parent
 
@@ -74,7 +72,19 @@ def render(content: ReportContent) -> str:
     environment.filters["symbol"] = _symbol
     environment.filters["svg"] = lambda item: Markup(item.markup)
     css = (_HERE / "assets" / "report.css").read_text(encoding="utf-8")
-    return environment.get_template("report.html").render(policy=POLICY, css=Markup(css), **_context(content))
+    shown, (scripts, data) = _context(content), _scripts(content)
+    return environment.get_template("report.html").render(
+        policy=policy(scripts),
+        css=Markup(css),
+        scripts=[Markup(item.text) for item in scripts],
+        script_data=[{"id": item.identifier, "text": Markup(item.text)} for item in data],
+        **shown,
+    )
+
+
+def _scripts(content: ReportContent) -> tuple[tuple[Script, ...], tuple[Data, ...]]:
+    """The scripts of this page, in the order in which they run, and what they read."""
+    return load("page.js"), ()
 
 
 def _context(content: ReportContent) -> Mapping[str, Any]:
