@@ -1,7 +1,8 @@
 """Whether this machine can load the solid modeller and draw three-dimensional pictures.
 
-cadquery does not import without libGL.  A picture drawn off the screen needs EGL with a driver, and VTK does not raise
-without one: it kills the process.  So both are asked for first, and the caller leaves the part out and says `APT_LINE`.
+cadquery asks for libGL, if only to load, and can do without (`fluxbore.geometry.gl_stand_in`).  A picture drawn off
+the screen needs EGL with a driver, and VTK does not raise without one: it kills the process.  So both are asked for
+first, and the caller leaves the part out and says `APT_LINE`.
 Standard library only: this file is also run by itself, before anything is installed, and prints the missing packages.
 """
 
@@ -46,7 +47,7 @@ sys.exit(0 if any(draws(display) for display in [*displays, egl.eglGetDisplay(No
 
 @cache
 def has_gl() -> bool:
-    """Whether cadquery can be imported: libGL loads.  Other systems than Linux bring their own."""
+    """Whether libGL loads, for which cadquery asks.  Other systems than Linux bring their own."""
     return not sys.platform.startswith("linux") or _loads("libGL.so.1")
 
 

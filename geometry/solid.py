@@ -1,7 +1,7 @@
 """Parts as solids of the CAD kernel (Open CASCADE, through cadquery), in millimetres, and as triangles for a picture.
 
-cadquery takes seconds to import and needs libGL, so it is imported inside the functions. Everything a solid must be,
-one body, valid, closed, of positive volume, is insisted upon here: boolean operations fail in silence.
+cadquery takes seconds to import and wants libGL (see `gl_stand_in`), so it is imported inside the functions. Everything
+a solid must be, one body, valid, closed, of positive volume, is insisted upon here: boolean operations fail in silence.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ import numpy.typing as npt
 
 from fluxbore.design.errors import DesignError, MissingLibraryError
 from fluxbore.design.graphics import APT_LINE, has_gl
+from fluxbore.geometry import gl_stand_in
 from fluxbore.geometry.assembly import Assembly
 from fluxbore.geometry.helical_mesh import triangles
 from fluxbore.geometry.helical_part import HelicalPart
@@ -45,7 +46,7 @@ class Mesh(NamedTuple):
 
 def load_cadquery() -> ModuleType:
     """The cadquery module; MissingLibraryError says how to get what it lacks."""
-    if not has_gl():
+    if not has_gl() and not gl_stand_in.load():
         raise MissingLibraryError(f"CAD needs the system library libGL.so.1; get it by: {APT_LINE}")
     try:
         import cadquery

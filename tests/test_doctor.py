@@ -23,12 +23,21 @@ def test_every_run_time_dependency_is_looked_at() -> None:
 def test_missing_graphics_are_answered_with_the_one_line_that_mends_them(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(doctor, "has_gl", lambda: False)
     monkeypatch.setattr(doctor, "has_egl", lambda: False)
+    monkeypatch.setattr(doctor.gl_stand_in, "possible", lambda: False)
     findings = {finding.name: finding for finding in diagnose()}
     assert not findings["libGL"].ok
     assert not findings["EGL"].ok
     text = report(list(findings.values()))
     assert text.count("apt-get install -y --no-install-recommends libgl1 libegl1 libgl1-mesa-dri") == 2
     assert text.endswith("2 missing: see the arrows.")
+
+
+def test_without_libgl_alone_nothing_is_missing_where_it_can_be_stood_in_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(doctor, "has_gl", lambda: False)
+    monkeypatch.setattr(doctor.gl_stand_in, "possible", lambda: True)
+    finding = next(finding for finding in diagnose() if finding.name == "libGL")
+    assert finding.ok
+    assert "without it" in finding.detail
 
 
 def test_a_missing_package_is_answered_with_its_install_line(monkeypatch: pytest.MonkeyPatch) -> None:

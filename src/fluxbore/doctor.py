@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from importlib import metadata
 
 from fluxbore.design.graphics import APT_LINE, has_egl, has_gl
+from fluxbore.geometry import gl_stand_in
 
 PYTHON_NEEDED = (3, 11)
 
@@ -71,8 +72,10 @@ def _package(name: str) -> Finding:
 
 def _gl() -> Finding:
     if has_gl():
-        return Finding("libGL", True, "loads: STEP files, drawings and solids can be made")
-    return Finding("libGL", False, "does not load: no STEP files, drawings or solids", f"as root: {APT_LINE}")
+        return Finding("libGL", True, "loads")
+    if gl_stand_in.possible():
+        return Finding("libGL", True, "does not load; CAD files are made without it")
+    return Finding("libGL", False, "does not load: no CAD files", f"as root: {APT_LINE}")
 
 
 def _egl() -> Finding:

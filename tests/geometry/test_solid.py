@@ -120,6 +120,7 @@ def test_triangles_face_outwards_and_enclose_the_volume(cut_away: bool) -> None:
 
 def test_without_libgl_the_sentence_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(solids, "has_gl", lambda: False)
+    monkeypatch.setattr(solids.gl_stand_in, "load", lambda: False)
     with pytest.raises(MissingLibraryError, match=r"libGL\.so\.1.*apt-get install .*libgl1"):
         solids.solid(part(rectangle(0, 1, 0, 1)))
 
