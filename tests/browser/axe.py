@@ -15,7 +15,7 @@ GRAVE = ("serious", "critical")
 
 
 def violations(page: Page, impacts: tuple[str, ...] = GRAVE) -> list[str]:
-    """The rules that are broken with such an impact: rule, how many places, the first of them and what is wrong there."""
+    """The rules that are broken with such an impact, each with how many places, the first of them and what is wrong."""
     page.evaluate(_script())
     found = page.evaluate(
         "axe.run(document, {resultTypes: ['violations']}).then(r => r.violations.map(v => ({id: v.id, impact: v.impact,"
