@@ -53,7 +53,8 @@ class FluxMap:
 class PartRow:
     """One line of the parts list; parts of the same shape and name share a line by their ``count``.
 
-    size : the part's main dimensions in words, for people. volume (m^3) and mass (kg) are of one piece.
+    size : the part's main dimensions in words, for people. volume (m^3) and mass (kg) are of one piece. source :
+    "make" or "buy", with the ``designation`` that it is ordered by; what is drawn by nobody has no number.
     """
 
     name: str
@@ -63,6 +64,9 @@ class PartRow:
     volume: float
     mass: float
     count: int = 1
+    part_number: str = ""
+    source: str = ""
+    designation: str = ""
 
 
 @dataclass(frozen=True, slots=True)

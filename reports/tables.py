@@ -120,9 +120,11 @@ def parts(rows: Sequence[PartRow]) -> Table | None:
     lines = tuple(
         (
             Cell(row.name),
+            Cell(row.part_number.replace("-", "\u2011")),
             Cell(row.group),
             Cell(row.material),
             Cell(row.size),
+            Cell(row.designation or row.source),
             Cell(str(row.count)),
             Cell(volume(row.volume)),
             Cell(mass(row.mass)),
@@ -137,9 +139,9 @@ def parts(rows: Sequence[PartRow]) -> Table | None:
     for title, members in [*(sums if len(sums) > 1 else []), ("All parts", rows)]:
         blank, count = Cell(""), sum(row.count for row in members)
         whole = Cell(mass(sum(row.mass * row.count for row in members)), "strong")
-        foot.append((Cell(title), blank, blank, blank, Cell(str(count)), blank, blank, whole))
-    head = ("Part", "Group", "Material", "Size", "Pieces", *titles)
-    return Table("Parts and masses", head, lines, tuple(foot), frozenset({1, 2, 3}))
+        foot.append((Cell(title), *(blank,) * 5, Cell(str(count)), blank, blank, whole))
+    head = ("Part", "Number", "Group", "Material", "Size", "Make, or buy as", "Pieces", *titles)
+    return Table("Parts and masses", head, lines, tuple(foot), frozenset({1, 2, 3, 4, 5}))
 
 
 def details(evaluations: Iterable[tuple[str, Evaluation | None]]) -> Table | None:

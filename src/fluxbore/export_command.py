@@ -7,7 +7,7 @@ from typing import Any
 
 from fluxbore.spec_options import path_name, read_spec, with_spec
 
-FORMATS = ("step", "dxf", "fem", "all")
+FORMATS = ("step", "bom", "dxf", "fem", "all")
 """As in `fluxbore.exporting`, which is not loaded for --help."""
 
 

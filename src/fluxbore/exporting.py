@@ -77,6 +77,12 @@ def _dxf(job: Job) -> Contents:
     return {f"{job.stem}.dxf": dxf_text(job.assembly, job.spec.materials)}
 
 
+def _bom(job: Job) -> Contents:
+    from fluxbore.geometry.bill_of_materials import bill_of_materials
+
+    return {f"{job.stem}-parts.csv": bill_of_materials(job.assembly, job.items)}
+
+
 def _fem(job: Job) -> Contents:
     from fluxbore.fem.femm_writer import write_text
 
@@ -88,6 +94,7 @@ def _fem(job: Job) -> Contents:
 
 
 FORMATS: dict[str, Format] = {
+    "bom": Format("bill of materials as CSV", _bom),
     "dxf": Format("section as DXF", _dxf),
     "fem": Format("FEMM model of the field", _fem, lambda spec: actuator_of(spec).femm_model is not None),
 }

@@ -15,7 +15,7 @@ from fluxbore.design.spec import Spec
 from fluxbore.geometry.assembly import Assembly, interferences
 from fluxbore.geometry.helical_clearance import narrowest
 from fluxbore.geometry.helical_part import HelicalPart
-from fluxbore.geometry.mass import PartMass, part_masses
+from fluxbore.geometry.part_size import size_text
 from fluxbore.optimize.design_key import source_hash
 from fluxbore.optimize.evaluation import Evaluation
 
@@ -37,38 +37,31 @@ def picture(parts: Assembly) -> Picture:
 
 
 def part_rows(spec: Spec, parts: Assembly) -> tuple[PartRow, ...]:
-    """The parts list; parts that differ by their place alone share a line."""
+    """The parts list, line by line as on the drawings and in the bill of materials."""
+    from fluxbore.geometry.bill_of_materials import CARRIED
+    from fluxbore.geometry.parts_list import parts_list
     from fluxbore.reports.content import PartRow
 
-    alike: dict[tuple[object, ...], list[PartMass]] = {}
-    for row in part_masses(parts, spec.materials):
-        key = (row.part.role, row.part.group, row.part.material, _size(row), f"{row.volume:.7e}")
-        alike.setdefault(key, []).append(row)
     rows = []
-    for same in alike.values():
-        part = same[0].part
-        name = part.name if len(same) == 1 else part.role
-        material = part.material or "envelope only"
-        rows.append(PartRow(name, part.group, material, _size(same[0]), same[0].volume, same[0].mass, len(same)))
+    for item in parts_list(parts, spec.materials):
+        part, material = item.part, item.part.material or "envelope only"
+        rows.append(
+            PartRow(
+                item.name,
+                part.group,
+                material,
+                size_text(part),
+                item.volume,
+                item.mass,
+                item.count,
+                item.part_number,
+                item.source,
+                part.bought,
+            )
+        )
     if parts.carried_mass > 0:
-        rows.append(PartRow("carried along, not drawn", "mover", "", "", 0.0, parts.carried_mass))
+        rows.append(PartRow(CARRIED, "mover", "", "", 0.0, parts.carried_mass))
     return tuple(rows)
-
-
-def _size(row: PartMass) -> str:
-    """Outer and inner diameter and length of the part's envelope, as on a drawing; of a helix also how it winds."""
-    radii, heights = zip(*row.part.profile, strict=True)
-    bore = f" / \N{LATIN CAPITAL LETTER O WITH STROKE}{2e3 * min(radii):.5g}" if min(radii) > 0 else ""
-    length = (max(heights) - min(heights)) * 1e3
-    ring = f"\N{LATIN CAPITAL LETTER O WITH STROKE}{2e3 * max(radii):.5g}{bore} \N{MULTIPLICATION SIGN} {length:.5g} mm"
-    return f"{ring}, {_winding(row.part)}" if isinstance(row.part, HelicalPart) else ring
-
-
-def _winding(part: HelicalPart) -> str:
-    around = f"{math.degrees(part.angle):.4g}°" if part.angle <= math.tau else f"{part.angle / math.tau:.4g} turns"
-    if part.lead == 0.0:
-        return around
-    return f"{around} of a helix {part.width * 1e3:.5g} mm wide, lead {part.lead * 1e3:.5g} mm"
 
 
 def checked(parts: Assembly, squeeze: str = "") -> tuple[str, ...]:

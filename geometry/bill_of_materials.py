@@ -1,0 +1,83 @@
+"""The bill of materials: the parts list as a table for a workshop or a buyer, one line an item, as CSV (RFC 4180).
+
+Masses are of the parts as drawn, in kilograms; their sum is the mass that the design's figures use for its parts.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Sequence
+
+from fluxbore.design.errors import one_line
+from fluxbore.geometry.assembly import Assembly
+from fluxbore.geometry.part import Part
+from fluxbore.geometry.part_size import size_text
+from fluxbore.geometry.parts_list import Item
+
+HEAD = (
+    "item",
+    "part number",
+    "drawing number",
+    "revision",
+    "name",
+    "group",
+    "material",
+    "size",
+    "pieces",
+    "mass each (kg)",
+    "mass total (kg)",
+    "make or buy",
+    "designation",
+    "note",
+)
+
+CARRIED = "carried along, not drawn"
+"""The name of the line for what moves with the mover and is no part."""
+
+
+def bill_of_materials(assembly: Assembly, items: Sequence[Item]) -> str:
+    """The file's text. items : the assembly's own parts list."""
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\r\n")
+    writer.writerow(HEAD)
+    for item in items:
+        writer.writerow(_row(item, assembly.title.revision))
+    if assembly.carried_mass > 0:
+        mass = _mass(assembly.carried_mass)
+        writer.writerow(("", "", "", "", CARRIED, "mover", "", "", 1, mass, mass, "", "", "no part of its own"))
+    return stream.getvalue()
+
+
+def item_note(item: Item) -> str:
+    """What the name does not say: of several pieces each of their notes once, and the toleranced sizes."""
+    notes = list(dict.fromkeys(part.note for part in item.parts if part.note))
+    if isinstance(item.part, Part):
+        notes += [f"{fit.feature} {fit.nominal * 1e3:.6g} {fit.tolerance}" for fit in item.part.fits]
+    return "; ".join(notes)
+
+
+def _row(item: Item, revision: str) -> tuple[object, ...]:
+    part = item.part
+    made = not part.bought
+    return (
+        item.number,
+        item.part_number,
+        item.drawing_number if made else "",
+        revision if made else "",
+        one_line(item.name),
+        part.group,
+        one_line(part.material) or "envelope only",
+        size_text(part),
+        item.count,
+        _mass(item.mass),
+        _mass(item.mass * item.count),
+        item.source,
+        one_line(part.bought),
+        one_line(item_note(item)),
+    )
+
+
+def _mass(mass: float) -> str:
+    """Figures enough that sums agree with the masses of the design to 1e-9."""
+    return f"{mass:.12g}"

@@ -1,0 +1,68 @@
+"""The bill of materials, read back by another reader of CSV; its sums are the masses that the figures use."""
+
+import csv
+import io
+from pathlib import Path
+
+import pytest
+
+from fluxbore.actuators import assembly_of
+from fluxbore.cli import main
+from fluxbore.design.materials import standard
+from fluxbore.design.spec import load
+from fluxbore.geometry.assembly import Assembly
+from fluxbore.geometry.bill_of_materials import HEAD, bill_of_materials
+from fluxbore.geometry.mass import part_masses, total
+from fluxbore.geometry.outline import rectangle
+from fluxbore.geometry.part import Fit, Part
+from fluxbore.geometry.parts_list import parts_list
+
+MM = 1e-3
+EXAMPLES = Path(__file__).parents[2] / "examples"
+
+
+def rows_of(text: str) -> list[dict[str, str]]:
+    assert text.count("\r\n") == text.count("\n")  # RFC 4180, 2.1
+    return list(csv.DictReader(io.StringIO(text, newline="")))
+
+
+@pytest.mark.parametrize("name", ["ipehla", "prehydra", "rotlin", "team22"])
+def test_sums_are_the_masses_of_all_parts(name: str) -> None:
+    spec = load(EXAMPLES / f"{name}.toml")
+    whole = assembly_of(spec)
+    rows = rows_of(bill_of_materials(whole, parts_list(whole, spec.materials)))
+    masses = part_masses(whole, spec.materials)
+    for group in ("mover", "stator"):
+        found = sum(float(row["mass total (kg)"]) for row in rows if row["group"] == group)
+        expected = total(masses, group) + (whole.carried_mass if group == "mover" else 0.0)
+        assert found == pytest.approx(expected, rel=1e-9)
+    assert sum(int(row["pieces"]) for row in rows if row["item"]) == len(whole.parts)
+    numbers = [row["part number"] for row in rows if row["item"]]
+    assert len(set(numbers)) == len(numbers)
+    assert all(row["make or buy"] == ("buy" if row["designation"] else "make") for row in rows if row["item"])
+
+
+def test_words_with_commas_quotes_and_breaks_stay_in_their_cells() -> None:
+    block = rectangle(2 * MM, 5 * MM, 0.0, 30 * MM)
+    parts = (
+        Part('tube, "long"\nof two', "tube", "stator", "brass", (0.5, 0.5, 0.5), block, note="a, b",
+             fits=(Fit("bore", 4 * MM, "H7"),)),
+        Part("ring 1", "ring", "mover", "brass", (0.5, 0.5, 0.5), block, bought="DIN 471 - 8 x 0.8"),
+    )  # fmt: skip
+    whole = Assembly("a", parts, 0.0, carried_mass=0.25)
+    first, second, carried = rows_of(bill_of_materials(whole, parts_list(whole, standard())))
+    assert list(first) == list(HEAD)
+    assert first["name"] == 'tube, "long"\\nof two'
+    assert first["size"] == "Ø10 / Ø4 × 30 mm"
+    assert first["note"] == "a, b; bore 4 H7"
+    assert (first["make or buy"], first["drawing number"], first["revision"]) == ("make", "DESIGN-001", "A")
+    assert (second["make or buy"], second["designation"], second["drawing number"]) == ("buy", "DIN 471 - 8 x 0.8", "")
+    assert carried["name"] == "carried along, not drawn"
+    assert float(carried["mass total (kg)"]) == 0.25
+
+
+def test_the_command_writes_it(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["export", str(EXAMPLES / "team22.toml"), "-o", str(tmp_path / "x"), "--format", "bom"]) == 0
+    file = Path(capsys.readouterr().out.strip())
+    assert file.name == "TEAM-22-parts.csv"
+    assert len(rows_of(file.read_bytes().decode())) == 2
