@@ -71,6 +71,7 @@ def render(content: ReportContent) -> str:
     )
     environment.filters["symbol"] = _symbol
     environment.filters["svg"] = lambda item: Markup(item.markup)
+    environment.filters["json"] = lambda value: Markup(Data("", value).text)
     css = (_HERE / "assets" / "report.css").read_text(encoding="utf-8")
     shown, (scripts, data) = _context(content), _scripts(content)
     return environment.get_template("report.html").render(
@@ -84,7 +85,7 @@ def render(content: ReportContent) -> str:
 
 def _scripts(content: ReportContent) -> tuple[tuple[Script, ...], tuple[Data, ...]]:
     """The scripts of this page, in the order in which they run, and what they read."""
-    return load("page.js"), ()
+    return load("page.js", "curves.js"), ()
 
 
 def _context(content: ReportContent) -> Mapping[str, Any]:

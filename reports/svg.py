@@ -10,10 +10,12 @@ import base64
 import html
 import io
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
+
+from fluxbore.reports.readout import readouts
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -73,13 +75,17 @@ _STYLE: dict[Any, Any] = {
 
 @dataclass(frozen=True, slots=True)
 class Drawing:
-    """A finished figure: ``markup`` is the SVG element, safe to inline; ``alt`` says what it shows."""
+    """A finished figure: ``markup`` is the SVG element, safe to inline; ``alt`` says what it shows.
+
+    readouts : what the pointer reads off it, see `fluxbore.reports.readout`.
+    """
 
     name: str
     markup: str
     alt: str
     caption: str
     wide: bool = False
+    readouts: tuple[Mapping[str, Any], ...] = ()
 
 
 @contextmanager
@@ -103,7 +109,7 @@ def drawing(figure: Figure, name: str, alt: str, caption: str, *, wide: bool = F
     buffer = io.StringIO()
     nothing = dict.fromkeys(("Date", "Creator", "Format", "Type"))
     figure.savefig(buffer, format="svg", metadata=nothing, dpi=dpi)
-    return Drawing(name, inline(buffer.getvalue(), name, alt), alt, caption, wide)
+    return Drawing(name, inline(buffer.getvalue(), name, alt), alt, caption, wide, readouts(figure, VARIABLES))
 
 
 def inline(text: str, name: str, alt: str) -> str:
