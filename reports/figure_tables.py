@@ -32,7 +32,7 @@ def comparison(content: ReportContent) -> Table | None:
             cells += [Cell(scale.number(value)) for value in values]
             if design is not None and network is not None:
                 fine, coarse = getattr(design.performance, name), getattr(network.performance, name)
-                cells.append(Cell(_against(name, fine, coarse) or DASH, "muted"))
+                cells.append(Cell(against(name, fine, coarse) or DASH, "muted"))
             rows.append(tuple(cells))
     head = (
         "Figure",
@@ -59,7 +59,7 @@ def meanings(content: ReportContent) -> Table | None:
     return Table(caption, head, tuple(rows), words=columns, sections=tuple(sections), signs=True) if rows else None
 
 
-def _against(name: str, fine: float | None, coarse: float | None) -> str:
+def against(name: str, fine: float | None, coarse: float | None) -> str:
     """The relative change; of temperatures, which have no share of one another, the difference."""
     if FIGURES[name].dimension == "temperature" and fine is not None and coarse is not None:
         return difference(measure_of_figure(name), coarse - fine, signed=True)
