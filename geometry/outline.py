@@ -112,12 +112,23 @@ def is_simple(profile: Profile) -> bool:
     if any(math.dist(a, b) < RESOLUTION for a, b in sides) or turned(profile)[0] <= 0:
         return False
     for i, j in itertools.combinations(range(len(sides)), 2):
-        if j - i == 1 or (i == 0 and j == len(sides) - 1):
+        if j - i == 1 or (i == 0 and j == len(sides) - 1) or _apart(sides[i], sides[j]):
             continue
         pairs = [(point, sides[j]) for point in sides[i]] + [(point, sides[i]) for point in sides[j]]
         if _crossing(sides[i], sides[j]) is not None or any(_distance(*pair) < RESOLUTION for pair in pairs):
             return False
     return True
+
+
+def _apart(a: Edge, b: Edge) -> bool:
+    """Whether a gap of some width lies between two edges, across or along the axis; most pairs of an outline's are."""
+    (r0, z0), (r1, z1) = a
+    (r2, z2), (r3, z3) = b
+    low, high = (z0, z1) if z0 < z1 else (z1, z0)
+    if (z2 > high + RESOLUTION and z3 > high + RESOLUTION) or (z2 < low - RESOLUTION and z3 < low - RESOLUTION):
+        return True
+    low, high = (r0, r1) if r0 < r1 else (r1, r0)
+    return (r2 > high + RESOLUTION and r3 > high + RESOLUTION) or (r2 < low - RESOLUTION and r3 < low - RESOLUTION)
 
 
 def _is_rectangle(profile: Profile) -> bool:

@@ -67,7 +67,8 @@ class Fit:
 
 @dataclass(frozen=True, slots=True)
 class Part:
-    """A solid of revolution about z with drillings across and along it, which must not run into one another.
+    """A solid of revolution about z with drillings across and along it, which must not run into one another; radial
+    ones on one axis may, as a thread above a narrower bore.
 
     group : "stator" or "mover". role : what it is, the same word for all alike ("coil").
     profile : counter-clockwise, r >= 0 (m). note : what a name does not say, such as the direction of magnetisation.
@@ -108,7 +109,7 @@ def volume(part: Body) -> float:
     """Volume (m^3): Pappus on the polygon, less the quadrature of each hole; closed for what follows a helix."""
     if isinstance(part, HelicalPart):
         return helical_part.volume(part)
-    drilled = sum(_drilled(part.profile, hole)[0] for hole in part.holes)
+    drilled = sum(_taken(part, hole)[0] for hole in part.holes)
     return turned(part.profile)[0] - drilled - sum(_axial_volume(hole) for hole in part.axial_holes)
 
 
@@ -124,7 +125,7 @@ def centre_of_mass(part: Body) -> tuple[float, float, float]:
     whole, along = turned(part.profile)
     across = [0.0, 0.0]
     for hole in part.holes:
-        gone, radial, axial = _drilled(part.profile, hole)
+        gone, radial, axial = _taken(part, hole)
         whole -= gone
         along -= axial
         across[0] -= radial * math.cos(hole.angle)
@@ -138,6 +139,20 @@ def centre_of_mass(part: Body) -> tuple[float, float, float]:
     return across[0] / whole, across[1] / whole, along / whole
 
 
+def _taken(part: Part, hole: Hole) -> tuple[float, float, float]:
+    """What `_drilled` gives, less what a wider drilling on the same axis takes away already."""
+    gone = _drilled(part.profile, hole.z, hole.diameter, hole.bottom)
+    wider = [
+        other.bottom
+        for other in part.holes
+        if other.diameter > hole.diameter and (other.z, other.angle) == (hole.z, hole.angle)
+    ]
+    if not wider:
+        return gone
+    shared = _drilled(part.profile, hole.z, hole.diameter, max(min(wider), hole.bottom))
+    return gone[0] - shared[0], gone[1] - shared[1], gone[2] - shared[2]
+
+
 def _axial_volume(hole: AxialHole) -> float:
     """m^3."""
     return math.pi * hole.diameter**2 / 4 * (hole.end - hole.start)
@@ -148,33 +163,37 @@ def _holds(profile: Profile, hole: AxialHole) -> bool:
     inner, outer = hole.radius - hole.diameter / 2, hole.radius + hole.diameter / 2
     if not (0 < inner < outer and hole.start < hole.end):
         return False
-    ring = rectangle(inner, outer, hole.start, hole.end)
+    return _holds_ring(profile, rectangle(inner, outer, hole.start, hole.end))
+
+
+@lru_cache(maxsize=256)  # holes on one pitch circle share it
+def _holds_ring(profile: Profile, ring: Profile) -> bool:
     whole = turned(ring)[0]
     return abs(overlap(profile, ring) - whole) <= 1e-9 * whole
 
 
-@lru_cache(maxsize=256)
-def _drilled(profile: Profile, hole: Hole) -> tuple[float, float, float]:
-    """What a hole takes away: ∫ dV, ∫ x dV along the hole's axis and ∫ z dV (m^3, m^4, m^4).
+@lru_cache(maxsize=256)  # holes around a part differ by their angle alone
+def _drilled(profile: Profile, centre: float, diameter: float, bottom: float) -> tuple[float, float, float]:
+    """What a hole about z = `centre` takes away: ∫ dV, ∫ x dV along its axis and ∫ z dV (m^3, m^4, m^4).
 
     Across the hole (y, from -h to h) the integrals of the chord are closed; along z, Gauss-Legendre runs between the
     heights at which the profile has a vertex, in an angle that takes away the square root at the hole's rim.
     """
-    radius = hole.diameter / 2
-    inside = {math.asin((z - hole.z) / radius) for _, z in profile if abs(z - hole.z) < radius}
+    radius = diameter / 2
+    inside = {math.asin((z - centre) / radius) for _, z in profile if abs(z - centre) < radius}
     # Halves as well: the profile need not be symmetric, and shorter stretches cost little.
     stations = sorted({-math.pi / 2, 0.0, math.pi / 2, *inside})
     whole = radial = axial = 0.0
     for low, high in itertools.pairwise(stations):
         # No vertex lies between two stations, so that the same edges are crossed all the way.
-        passed = crossed(profile, hole.z + radius * math.sin((low + high) / 2))
+        passed = crossed(profile, centre + radius * math.sin((low + high) / 2))
         for node, weight in zip(_NODES, _WEIGHTS, strict=True):
             angle = (low + high) / 2 + node * (high - low) / 2
-            half, z = radius * math.cos(angle), hole.z + radius * math.sin(angle)
+            half, z = radius * math.cos(angle), centre + radius * math.sin(angle)
             step = weight * (high - low) / 2 * half  # dz = radius cos(angle) d(angle)
             for count, edge in enumerate(passed):
                 sign = 1 if count % 2 else -1
-                chord, moment = _chord(at(edge, z), half, hole.bottom)
+                chord, moment = _chord(at(edge, z), half, bottom)
                 whole += sign * step * chord
                 radial += sign * step * moment
                 axial += sign * step * chord * z

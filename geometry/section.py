@@ -128,11 +128,17 @@ def _rims(part: Part, hole: Hole) -> list[Line]:
     """Where the far half of a drilling in the plane meets the surfaces that it passes: y'^2 = r^2 - x^2, with
     x^2 = R^2 - (z - z_0)^2 the depth behind the plane."""
     radius, side = hole.diameter / 2, 1 if math.cos(hole.angle) > 0 else -1
+    wider = [
+        other.bottom
+        for other in part.holes
+        if other.diameter > hole.diameter and (other.z, other.angle) == (hole.z, hole.angle)
+    ]
+    top = min(wider, default=math.inf)
     places = [hole.z - radius * math.cos(math.pi * step / STEPS) for step in range(STEPS + 1)]
     rows: list[list[Point]] = []
     for z in places:
         depth = max(radius**2 - (z - hole.z) ** 2, 0.0)
-        radii = [r for _, r, _ in _crossings(part, z) if r > hole.bottom and r * r > depth]
+        radii = [r for _, r, _ in _crossings(part, z) if hole.bottom < r < top and r * r > depth]
         for number, r in enumerate(radii):
             while len(rows) <= number:
                 rows.append([])
