@@ -41,7 +41,7 @@ def section(assembly: Assembly, name: str = "section", width: float = 1000.0) ->
         for part in assembly.parts:
             roles.setdefault(part.name if len(assembly.parts) <= FEW else part.role, part.colour)
             for sign, angle in ((1, 0.0), (-1, math.pi)):
-                for face in _faces(part, angle):
+                for face in faces(part, angle):
                     points = [(z * 1e3, sign * r * 1e3) for r, z in face]
                     plot.add_patch(Polygon(points, facecolor=part.colour, edgecolor=EDGE, linewidth=0.5))
         margin = 0.03 * (high - low)
@@ -61,7 +61,7 @@ def section(assembly: Assembly, name: str = "section", width: float = 1000.0) ->
         return drawing(canvas, name, alt, caption, wide=wide)
 
 
-def _faces(part: Body, angle: float) -> list[Profile]:
+def faces(part: Body, angle: float) -> list[Profile]:
     """What the half plane at an angle (rad) cuts out of a part."""
     if not isinstance(part, HelicalPart):
         return [part.profile]
