@@ -18,7 +18,7 @@ def test_the_table_is_that_of_the_series() -> None:
         assert bearing.width < (bearing.outer_diameter - bearing.bore)
     sizes = [(bearing.bore, bearing.outer_diameter, bearing.width) for bearing in BEARINGS.values()]
     assert sizes == sorted(sizes)
-    assert all(later[2] >= before[2] for before, later in zip(sizes, sizes[1:], strict=False))
+    assert [size[2] for size in sizes] == sorted(size[2] for size in sizes)
 
 
 def test_one_that_is_not_chosen_is_like_its_neighbours() -> None:
