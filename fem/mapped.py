@@ -139,7 +139,8 @@ def _grid_topology(nz: int, nr: int, open_rim: bool) -> tuple[Topology, Ints]:
     if not open_rim:
         inside &= (rows > 0) & (rows < 2 * nz) & (columns < width - 1)
     freedom = np.where(inside, np.cumsum(inside) - 1, -1)
-    return Topology(elements, freedom), np.repeat(np.arange(nz * nr), 2)
+    inner = np.flatnonzero((rows % 2 == 1) & (columns % 2 == 1))
+    return Topology(elements, freedom, inner=inner), np.repeat(np.arange(nz * nr), 2)
 
 
 def breakpoint_derivative(grid: MappedMesh, section: CrossSection, s: Floats, z: Floats) -> tuple[Floats, Floats]:

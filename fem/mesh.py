@@ -30,12 +30,14 @@ class Topology:
         together share an unknown.
     sign : (n,) ±1, −1 where an antiperiodic boundary turns the unknown round; None for +1 everywhere.
     mate : (n,) the node that stands for each node and those tied to it; None where each stands for itself.
+    inner : (i,) nodes inside of cells of several elements, of which no two meet in an element; see `Pattern`.
     """
 
     elements: Ints
     freedom: Ints
     sign: Ints | None = None
     mate: Ints | None = None
+    inner: Ints | None = None
 
     @property
     def mates(self) -> Ints:
@@ -49,9 +51,9 @@ class Topology:
     @cached_property
     def pattern(self) -> Pattern:
         """Where element matrices land in the global one."""
-        if self.sign is None:
-            return Pattern.of_elements(self.freedom[self.elements], self.unknowns)
-        return Pattern.of_elements(self.freedom[self.elements], self.unknowns, self.sign[self.elements])
+        sign = None if self.sign is None else self.sign[self.elements]
+        inner = None if self.inner is None else self.freedom[self.inner]
+        return Pattern.of_elements(self.freedom[self.elements], self.unknowns, sign, inner)
 
     @cached_property
     def nodes_of_freedom(self) -> Ints:
