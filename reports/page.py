@@ -5,9 +5,8 @@ from __future__ import annotations
 import base64
 import re
 from collections.abc import Mapping
-from html import escape
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from fluxbore.design.errors import OutputError
 from fluxbore.design.keys import Key
@@ -22,6 +21,7 @@ from fluxbore.reports import (
     hydrostatic,
     lead_screw,
     optimum,
+    parallel,
     section_drawing,
     sensitivity,
     story,
@@ -30,16 +30,13 @@ from fluxbore.reports import (
     tables,
     tolerances,
 )
+from fluxbore.reports.brush_data import DesignTable, design_table, page_data
 from fluxbore.reports.content import ReportContent
 from fluxbore.reports.key_labels import FRAGMENTS
-from fluxbore.reports.scripts import Data, Script, load, policy
+from fluxbore.reports.scripts import Data, Script, load
 from fluxbore.reports.svg import Drawing
+from fluxbore.reports.template import fill
 from fluxbore.reports.wording import capital, duration, greek, key_label, symbol
-
-if TYPE_CHECKING:
-    from markupsafe import Markup
-
-_HERE = Path(__file__).parent
 
 
 def write_report(content: ReportContent, path: Path) -> Path:
@@ -56,39 +53,30 @@ def write_report(content: ReportContent, path: Path) -> Path:
 
 def render(content: ReportContent) -> str:
     """The page as text."""
-    from jinja2 import Environment, FileSystemLoader, StrictUndefined
-    from markupsafe import Markup
-
-    environment = Environment(
-        loader=FileSystemLoader(_HERE / "templates"),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        # "{#" opens a rule for an identifier in CSS.
-        comment_start_string="{##",
-        comment_end_string="##}",
-    )
-    environment.filters["symbol"] = _symbol
-    environment.filters["svg"] = lambda item: Markup(item.markup)
-    environment.filters["json"] = lambda value: Markup(Data("", value).text)
-    css = (_HERE / "assets" / "report.css").read_text(encoding="utf-8")
-    shown, (scripts, data) = _context(content), _scripts(content)
-    return environment.get_template("report.html").render(
-        policy=policy(scripts),
-        css=Markup(css),
-        scripts=[Markup(item.text) for item in scripts],
-        script_data=[{"id": item.identifier, "text": Markup(item.text)} for item in data],
-        **shown,
-    )
+    return fill("report.html", *_scripts(content), **_context(content))
 
 
-def _scripts(content: ReportContent) -> tuple[tuple[Script, ...], tuple[Data, ...]]:
+def _scripts(table: DesignTable | None) -> tuple[tuple[Script, ...], tuple[Data, ...]]:
     """The scripts of this page, in the order in which they run, and what they read."""
-    return load("page.js", "curves.js"), ()
+    names, data = ["page.js", "curves.js"], []
+    if table is not None:
+        names.append("brush.js")
+        data.append(Data("designs-data", page_data(table)))
+    return load(*names), tuple(data)
 
 
-def _context(content: ReportContent) -> Mapping[str, Any]:
+def _designs(table: DesignTable | None) -> dict[str, Any] | None:
+    if table is None:
+        return None
+    return {
+        "table": table,
+        "scatter": parallel.scatter(table),
+        "parallel": parallel.parallel(table),
+        "marks": [item.mark for item in table.designs if item.mark],
+    }
+
+
+def _context(content: ReportContent, designs: Mapping[str, Any] | None) -> Mapping[str, Any]:
     """Everything the template shows, section by section."""
     spec, design = content.spec, content.design
     sound = design if design is not None and design.ok else None
@@ -127,6 +115,8 @@ def _context(content: ReportContent) -> Mapping[str, Any]:
         "tolerance": _tolerance(content),
         "robust": _robust(content),
         "benchmark": benchmark_sections.benchmark_section(content.simulation),
+        "designs": designs,
+        "mark_shapes": parallel.MARKS,
         "failures": story.failures(search) if search else "",
         "screw": _screw(content),
         "hydraulics": _hydraulics(content),
@@ -285,10 +275,3 @@ def _meaning(key: Key) -> str:
 
 def _present(*drawings: Drawing | None) -> tuple[Drawing, ...]:
     return tuple(item for item in drawings if item is not None)
-
-
-def _symbol(text: str) -> Markup:
-    """``τ_f`` with a real subscript."""
-    from markupsafe import Markup
-
-    return Markup(re.sub(r"_(\w+)", r"<sub>\1</sub>", escape(text)))
