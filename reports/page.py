@@ -53,7 +53,8 @@ def write_report(content: ReportContent, path: Path) -> Path:
 
 def render(content: ReportContent) -> str:
     """The page as text."""
-    return fill("report.html", *_scripts(content), **_context(content))
+    table = design_table(content)
+    return fill("report.html", *_scripts(table), **_context(content, _designs(table)))
 
 
 def _scripts(table: DesignTable | None) -> tuple[tuple[Script, ...], tuple[Data, ...]]:
