@@ -21,6 +21,7 @@ DRAWING_KEYS: tuple[Key, ...] = (
     _word("revision", "revision of parts and drawings", "A"),
     _word("author", "who answers for the drawing"),
     _word("organisation", "whose drawing it is"),
+    _word("approver", "who releases parts and drawings"),
     _word("general_tolerance", "of sizes without a tolerance of their own", "ISO 2768-mK"),
 )
 """Keys of section ``[drawing]``, the same for every kind of actuator; no figure depends on them."""
@@ -37,6 +38,7 @@ class TitleBlock:
     author: str = ""
     organisation: str = ""
     general_tolerance: str = "ISO 2768-mK"
+    approver: str = ""
 
     def number_of(self, item: int) -> str:
         """The part number of an item of the parts list."""
@@ -64,4 +66,5 @@ def title_block(values: Values) -> TitleBlock:
         word("author"),
         word("organisation"),
         word("general_tolerance"),
+        word("approver"),
     )
