@@ -20,8 +20,8 @@ SCATTER = (500.0, 360.0)
 FRAME = (64.0, 14.0, 486.0, 306.0)
 """Left, top, right and bottom of its axes."""
 
-STEP, TOP, BOTTOM, EDGE = 128.0, 74.0, 330.0, 70.0
-"""Between two parallel axes; their upper and lower ends; from the first and the last to the drawing's edge."""
+WIDTH, TOP, BOTTOM, EDGE = 1000.0, 66.0, 336.0, 70.0
+"""Of the parallel axes: the drawing's width; their upper and lower ends; from the first and the last to its edge."""
 
 MARKS = {"start": "M-5-5H5V5H-5Z", "chosen": "M0-9 2.6-2.9 9-2.6 4 1.5 5.6 8 0 4.4-5.6 8-4 1.5-9-2.6-2.6-2.9Z",
          "published optimum": "M0 7-6.5-5H6.5Z"}  # fmt: skip
@@ -67,20 +67,20 @@ def scatter(table: DesignTable) -> Drawing:
 
 def parallel(table: DesignTable) -> Drawing:
     """Every column an axis, every design a line across them; what the study's limits exclude is shaded."""
-    width = 2 * EDGE + STEP * (len(table.columns) - 1)
+    places = [EDGE + i * (WIDTH - 2 * EDGE) / (len(table.columns) - 1) for i in range(len(table.columns))]
     parts = ['<g class="designs">']
     for number in _in_order(table.designs):
         item = table.designs[number]
-        parts.append(f'<path class="{look(item)}" data-row="{number}" d="{_line(table.columns, item)}"/>')
+        parts.append(f'<path class="{look(item)}" data-row="{number}" d="{_line(table.columns, places, item)}"/>')
     parts.append("</g>")
     for number, column in enumerate(table.columns):
-        parts.append(_axis(number, column))
+        parts.append(_axis(number, column, places[number]))
     alt = (
         f"Parallel coordinates of {len(table.designs)} designs over "
         f"{', '.join(column.label for column in table.columns)}{_named(table, range(len(table.columns)))}."
     )
     caption = "Every axis a variable or a figure, every line a design. Shaded: what the limits exclude."
-    markup = _whole((width, BOTTOM + 14), "parallel", alt, parts)
+    markup = _whole((WIDTH, BOTTOM + 14), "parallel", alt, parts)
     return Drawing("parallel", markup, alt, caption, wide=True)
 
 
@@ -107,8 +107,8 @@ def look(item: Design) -> str:
     return f"{'row' if item.feasible else 'row broken'}{f' mark {name}' if name else ''}"
 
 
-def _axis(number: int, column: Column) -> str:
-    x = EDGE + STEP * number
+def _axis(number: int, column: Column, x: float) -> str:
+    x = float(_short(x))
     parts = [f'<g class="axis" data-column="{number}">']
     for sense, limit in column.limits:
         at = BOTTOM - share_of(column, limit) * (BOTTOM - TOP)
@@ -130,15 +130,15 @@ def _axis(number: int, column: Column) -> str:
     return "".join((*parts, "</g>"))
 
 
-def _line(columns: Sequence[Column], item: Design) -> str:
+def _line(columns: Sequence[Column], places: Sequence[float], item: Design) -> str:
     """A path across the axes, broken where a figure is not known."""
     found, pen = [], "M"
-    for number, (column, value) in enumerate(zip(columns, item.values, strict=True)):
+    for column, x, value in zip(columns, places, item.values, strict=True):
         if value is None:
             pen = "M"
             continue
         y = BOTTOM - share_of(column, value) * (BOTTOM - TOP)
-        found.append(f"{pen}{_short(EDGE + STEP * number)} {_short(y)}")
+        found.append(f"{pen}{_short(x)} {_short(y)}")
         pen = "L"
     return "".join(found)
 
@@ -164,7 +164,7 @@ def _reading(column: Column, value: float) -> str:
     return f"{column.label} {plain(value, column.scale.decimals)} {column.scale.unit}".strip()
 
 
-def _wrapped(text: str, width: int = 17, most: int = 4) -> list[str]:
+def _wrapped(text: str, width: int = 18, most: int = 4) -> list[str]:
     """A title in short lines."""
     import textwrap
 
