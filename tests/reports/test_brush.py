@@ -46,7 +46,10 @@ def test_marks_are_those_of_the_study(content: ReportContent, table: DesignTable
     assert content.search.chosen is not None
     assert marked["chosen"][:2] == pytest.approx([1e3 * value for value in content.search.chosen.values.values()])
     assert marked["published optimum"][:2] == pytest.approx((1.5, 0.4))
-    without = design_table(dataclasses.replace(content, one_at_a_time=None))
+    yoke = content.sweeps[1]
+    rest = tuple(row for row in yoke.rows if abs(next(iter(row.values.values())) - 0.4e-3) > 1e-6)
+    sweeps = (content.sweeps[0], SweepResult(yoke.sweep, rest))
+    without = design_table(dataclasses.replace(content, one_at_a_time=None, sweeps=sweeps))
     assert without is not None
     assert "published optimum" not in {item.mark for item in without.designs}
 

@@ -87,7 +87,7 @@ def test_nothing_is_loaded_from_elsewhere(page: str, outline: Outline) -> None:
 def test_every_picture_has_words(outline: Outline) -> None:
     """Catches a figure that a screen reader would pass over in silence."""
     assert all(image.get("alt") for image in outline.named("img"))
-    drawings = outline.named("svg")
+    drawings = [item for item in outline.named("svg") if item.get("aria-hidden") != "true"]
     assert len(drawings) >= 10
     assert all(item.get("role") == "img" and len(item.get("aria-label") or "") > 15 for item in drawings)
     assert len(outline.named("figure")) == len(outline.named("figcaption"))
