@@ -22,7 +22,7 @@ class FluxMap:
     """A field on linear triangles, for drawing.
 
     r, z : (n,) m. triangles : (m, 3). flux : (n,) ψ (Wb/rad); its contours are field lines.
-    flux_density : (m,) |B| (T). region : (m,) index of each triangle's region.
+    flux_density : (m,) |B| (T). region : (m,) index of each triangle's region. components : (m, 2) B_r, B_z (T).
     """
 
     r: Floats
@@ -31,6 +31,7 @@ class FluxMap:
     flux: Floats
     flux_density: Floats
     region: Ints
+    components: Floats
 
 
 def nodal_flux_density(solution: Solution, elements: Ints) -> tuple[Ints, Floats]:
@@ -93,4 +94,5 @@ def flux_map(solution: Solution) -> FluxMap:
         solution.psi,
         np.sqrt(np.sum(field**2, axis=-1)).ravel(),
         np.repeat(mesh.region, 4),
+        np.column_stack((-field[..., 1].ravel(), field[..., 0].ravel())),
     )

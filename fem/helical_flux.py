@@ -51,7 +51,7 @@ def flux_map(solution: HelicalSolution, start: float, end: float) -> FluxMap:
     middles, its `z` being ζ."""
     system = solution.system
     mesh, psi = system.mesh, flux_function(solution)
-    density = _magnitude(solution, psi)
+    density, components = _density(solution, psi)
     length = solution.section.period / system.grid.copies
     low, high = float(mesh.nodes[:, 1].min()), float(mesh.nodes[:, 1].max())
     # The mesh is sheared between the members, so that its ends overlap: whole copies cover the window.
@@ -65,11 +65,12 @@ def flux_map(solution: HelicalSolution, start: float, end: float) -> FluxMap:
         np.concatenate([psi * sign**i for i in copies]),
         np.tile(density, len(copies)),
         np.tile(np.repeat(mesh.region, 4), len(copies)),
+        np.concatenate([components * sign**i for i in copies]),
     )
 
 
-def _magnitude(solution: HelicalSolution, psi: Floats) -> Floats:
-    """(4 m,) |B| (T) at the middles of the small triangles.
+def _density(solution: HelicalSolution, psi: Floats) -> tuple[Floats, Floats]:
+    """(4 m,) |B| and (4 m, 2) B_r, B_z (T) at the middles of the small triangles.
 
     B_θ = −(h/r) B_z wherever remanence is radial, so that |B|² = [(∂ψ/∂ζ)² + (∂ψ/∂r)²/(1 + h²/r²)]/r².
     """
@@ -77,7 +78,9 @@ def _magnitude(solution: HelicalSolution, psi: Floats) -> Floats:
     slopes = np.einsum("mqkn,mn->mqk", kernel(mesh, None, middles).curl, psi[mesh.elements], optimize=True)
     r = positions(mesh, None, middles)[..., 0]
     along = 1 + (solution.section.transfer_ratio / r) ** 2
-    return np.asarray(np.sqrt(slopes[..., 1] ** 2 + slopes[..., 0] ** 2 / along) / r).ravel()
+    density = np.sqrt(slopes[..., 1] ** 2 + slopes[..., 0] ** 2 / along) / r
+    components = np.stack((-slopes[..., 1] / r, slopes[..., 0] / (r * along)), axis=-1)
+    return np.asarray(density).ravel(), np.asarray(components).reshape(-1, 2)
 
 
 def _free(topology: Topology) -> Topology:

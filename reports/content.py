@@ -37,6 +37,7 @@ class FluxMap:
     outlines : name and (k, 2) polygon of (r, z) (m) of every part to be drawn over the field.
     position : of the mover (m).
     region : (m,) number of the material region of each triangle; with it field lines are drawn smooth within each.
+    components : (m, 2) B_r, B_z (T) in the triangles, for the pointer to read; None where there is nothing to read.
     """
 
     r: Array
@@ -47,6 +48,7 @@ class FluxMap:
     outlines: tuple[tuple[str, Array], ...]
     position: float
     region: Triangles | None = None
+    components: Array | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,12 +8,14 @@ from __future__ import annotations
 
 import math
 import re
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from fluxbore.design.spec import Spec
 from fluxbore.reports.content import Array, FluxMap, Triangles
+from fluxbore.reports.flux_hover import field_readout
 from fluxbore.reports.svg import Drawing, drawing, new_figure, style
 
 if TYPE_CHECKING:
@@ -73,7 +75,8 @@ def machine_strip(field: FluxMap, limit: float, step: float) -> Drawing:
         place = f"{field.position * 1e3:.4g} mm"
         alt = f"Flux density and field lines in the whole machine with the mover at z = {place}."
         caption = f"The whole machine in section at no current, mover at z = {place}."
-        return drawing(canvas, "flux-machine", alt, caption, wide=True, dpi=130)
+        made = drawing(canvas, "flux-machine", alt, caption, wide=True, dpi=130)
+        return replace(made, readouts=field_readout(plot, field))
 
 
 def close_up(field: FluxMap, spec: Spec, limit: float, step: float, name: str, title: str) -> Drawing:
@@ -90,7 +93,8 @@ def close_up(field: FluxMap, spec: Spec, limit: float, step: float, name: str, t
         plot.set_ylabel("r (mm)")
         alt = f"{title}: flux density, field lines and parts over two pole pitches."
         caption = f"{title}: two pole pitches at the middle of the mover."
-        return drawing(canvas, name, alt, caption, dpi=150)
+        made = drawing(canvas, name, alt, caption, dpi=150)
+        return replace(made, readouts=field_readout(plot, field))
 
 
 def paint(

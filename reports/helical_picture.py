@@ -6,10 +6,12 @@ flux function, of which `fluxbore.fem.helical_flux` shows that field lines keep 
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from fluxbore.design.lead_screw import HelicalMagnets
 from fluxbore.reports.content import FluxMap
+from fluxbore.reports.flux_hover import field_readout
 from fluxbore.reports.flux_picture import DARK, colour_bar, colour_limit, flux_between, flux_step, paint
 from fluxbore.reports.lead_screw_content import ScrewContent
 from fluxbore.reports.svg import Drawing, drawing, new_figure, style
@@ -61,7 +63,9 @@ def field_picture(content: ScrewContent) -> Drawing:
             f"magnetisation. {between} flow between neighbouring lines in one turn. The colours end at {limit:.1f} T; "
             f"at edges of magnets the field is {top:.1f} T here, and has no bound in theory."
         )
-        return drawing(canvas, "screw-field", alt, caption, wide=True)
+        made = drawing(canvas, "screw-field", alt, caption, wide=True)
+        both = (field_readout(plot, field) for plot, (_, field) in zip(plots, maps, strict=True))
+        return replace(made, readouts=tuple(entry for found in both for entry in found))
 
 
 def _radii(content: ScrewContent) -> tuple[float, float]:

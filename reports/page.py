@@ -59,7 +59,7 @@ def render(content: ReportContent) -> str:
 
 def _scripts(table: DesignTable | None) -> tuple[tuple[Script, ...], tuple[Data, ...]]:
     """The scripts of this page, in the order in which they run, and what they read."""
-    names, data = ["page.js", "curves.js"], []
+    names, data = ["page.js", "curves.js", "flux.js"], []
     if table is not None:
         names.append("brush.js")
         data.append(Data("designs-data", page_data(table)))

@@ -31,22 +31,25 @@ def readouts(figure: Figure, variables: Mapping[str, str]) -> tuple[Mapping[str,
     None stands in a gap. Maps with equal axes have none: what lies in them is no function.
     variables : colours of the drawing and the page's names for them, which follow its theme.
     """
-    height = figure.get_size_inches()[1] * figure.dpi
     found = []
     for plot in figure.axes:
         curves = [_curve(line, variables) for line in _lines(plot)]
         if not curves:
             continue
-        box = plot.get_window_extent()
-        found.append(
-            {
-                "box": _rounded((box.x0, height - box.y1, box.x1, height - box.y0)),
-                "x": _axis(plot.get_xlabel(), plot.get_xlim(), plot.get_xscale()),
-                "y": _axis(plot.get_ylabel(), plot.get_ylim(), plot.get_yscale()),
-                "curves": curves,
-            }
-        )
+        found.append({**frame(plot), "curves": curves})
     return tuple(found)
+
+
+def frame(plot: Axes) -> dict[str, Any]:
+    """Where a pair of axes lies in the drawing, and what its ends stand for."""
+    figure = plot.get_figure(root=True)
+    assert figure is not None
+    height, box = figure.get_size_inches()[1] * figure.dpi, plot.get_window_extent()
+    return {
+        "box": _rounded((box.x0, height - box.y1, box.x1, height - box.y0)),
+        "x": _axis(plot.get_xlabel(), plot.get_xlim(), plot.get_xscale()),
+        "y": _axis(plot.get_ylabel(), plot.get_ylim(), plot.get_yscale()),
+    }
 
 
 def _lines(plot: Axes) -> list[Line2D]:

@@ -11,7 +11,7 @@
   }
 
   function enhance(svg, plots) {
-    const stops = plots.flatMap((plot) => stopsOf(plot));
+    const stops = plots.filter((plot) => plot.curves).flatMap((plot) => stopsOf(plot));
     if (!stops.length) return;
     const view = svg.viewBox.baseVal;
     const frame = fluxbore.element("div", { class: "reading" });

@@ -43,7 +43,17 @@ def flux_map(spec: Spec) -> FluxMap | None:
     boxes = [(item.region.name, item.r, item.z) for item in solved.section.rectangles]
     boxes += [(f"coil {coil.circuit}", coil.r, coil.z) for coil in solved.section.coils]
     outlines = tuple((name, np.array([(r[0], z[0]), (r[1], z[0]), (r[1], z[1]), (r[0], z[1])])) for name, r, z in boxes)
-    return FluxMap(field.r, field.z, field.triangles, field.flux, field.flux_density, outlines, position, field.region)
+    return FluxMap(
+        field.r,
+        field.z,
+        field.triangles,
+        field.flux,
+        field.flux_density,
+        outlines,
+        position,
+        field.region,
+        field.components,
+    )
 
 
 def femm_model(spec: Spec) -> FemmModel:

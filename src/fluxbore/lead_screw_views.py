@@ -127,6 +127,7 @@ def _flux_map(solution: HelicalSolution, screw: LeadScrew) -> FluxMap:
         tuple(outlines),
         section.displacement,
         found.region,
+        found.components,
     )
 
 

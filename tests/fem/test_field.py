@@ -69,3 +69,12 @@ def test_flux_map_of_a_polynomial(polynomial: TubularSolution) -> None:
     np.testing.assert_allclose(picture.flux_density, np.hypot(5 * np.sqrt(2 * middle[:, 0]), 1 + 10 * middle[:, 1]))
     assert np.array_equal(picture.region[::4], mesh.region)
     assert picture.flux is polynomial.solution.psi
+
+
+def test_flux_map_has_both_components(polynomial: TubularSolution) -> None:
+    """Catches components exchanged, of another sign, or of other triangles than their middles."""
+    picture = flux_map(polynomial.solution)
+    r, z = (axis[picture.triangles].mean(axis=1) for axis in (picture.r, picture.z))
+    np.testing.assert_allclose(picture.components[:, 0], -5 * r, rtol=0.1, atol=1e-3)
+    np.testing.assert_allclose(picture.components[:, 1], 1 + 10 * z, rtol=1e-6)
+    np.testing.assert_allclose(np.hypot(*picture.components.T), picture.flux_density)

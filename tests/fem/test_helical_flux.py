@@ -77,3 +77,20 @@ def test_magnitude_is_the_solution_s_own(solved: HelicalSolution) -> None:
     mean = np.sum(area * field.flux_density**2) / np.sum(area)
     weight, b = kernel(mesh).weight, solved.flux_density()
     assert mean == pytest.approx(np.sum(weight * np.sum(b**2, axis=-1)) / np.sum(weight), rel=0.01)
+
+
+def test_components_give_the_magnitude_with_the_helix(solved: HelicalSolution) -> None:
+    """Catches components of another sign or order: with B_θ = −(h/r) B_z they give |B|, and field lines follow them."""
+    mesh = solved.system.mesh
+    field = flux_map(solved, *(float(end(mesh.nodes[:, 1])) for end in (np.min, np.max)))
+    places = np.column_stack((field.r, field.z))[field.triangles]
+    radial, axial = field.components.T
+    around = SCREW.h / places[..., 0].mean(axis=1) * axial
+    np.testing.assert_allclose(np.sqrt(radial**2 + axial**2 + around**2), field.flux_density, rtol=0.02)
+    # r B_r = −∂ψ/∂ζ in each small triangle.
+    (r1, z1), (r2, z2) = (places[:, 1] - places[:, 0]).T, (places[:, 2] - places[:, 0]).T
+    psi = field.flux[field.triangles]
+    d1, d2 = psi[:, 1] - psi[:, 0], psi[:, 2] - psi[:, 0]
+    slope = (r1 * d2 - r2 * d1) / (r1 * z2 - r2 * z1)
+    found = -slope / places[..., 0].mean(axis=1)
+    assert np.sqrt(np.mean((found - radial) ** 2)) < 0.1 * np.sqrt(np.mean(radial**2))
