@@ -15,7 +15,7 @@ from typing import Self
 from fluxbore.design.errors import FluxboreError, OutputError
 from fluxbore.design.process import may_run
 from fluxbore.design.spec import Spec
-from fluxbore.geometry import step_files
+from fluxbore.geometry import own_files
 from fluxbore.optimize.journal import Journal
 
 MARKER = ".fluxbore.json"
@@ -33,7 +33,7 @@ OUTPUTS = (
 """Results at the folder's top that belong to one specification; those of another one do not stay beside them."""
 
 CAD = "cad"
-"""The folder of the STEP files, which belong to one specification as the `OUTPUTS` do."""
+"""The folder of the CAD files, which belong to one specification as the `OUTPUTS` do."""
 
 _PARTIAL = ".partial"
 
@@ -118,7 +118,7 @@ def _take(path: Path, fingerprint: str, force: bool) -> Folder:
         if before is not None and not resumed:
             for name in OUTPUTS:
                 _remove(path / name)
-            step_files.remove_own(path / CAD)
+            own_files.remove(path / CAD)
         for name in names:
             if _is_partial(name) and not _alive(name):
                 _remove(path / name)

@@ -42,7 +42,8 @@ def test_leaves_its_files(run: tuple[Path, dict[str, object]]) -> None:
         assert (folder / name).stat().st_size > 100
     if has_gl():
         assert (folder / "cad" / "iPEHLA.step").exists()
-        assert len(list((folder / "cad" / "parts").glob("*.step"))) == 48
+        assert len(list((folder / "cad").glob("iPEHLA-*ed.step"))) == 2
+        assert len(list((folder / "cad" / "parts").glob("*.step"))) >= 10
     assert not [path for path in folder.rglob("*") if path.name.endswith(".partial")]
     assert printed["status"] == "ok"
 

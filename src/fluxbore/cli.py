@@ -141,12 +141,12 @@ def _check(options: argparse.Namespace) -> int:
 
 
 def _export(options: argparse.Namespace) -> int:
-    answer = export_command.run(options)
+    sound, answer = export_command.run(options)
     if isinstance(answer, str):
         print(answer)
     else:
         _print_json(answer)
-    return DONE
+    return DONE if sound else NOT_VALID
 
 
 def _solve(options: argparse.Namespace) -> int:

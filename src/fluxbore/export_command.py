@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import argparse
-from typing import Any
+from dataclasses import asdict
+from typing import TYPE_CHECKING, Any
 
 from fluxbore.spec_options import path_name, read_spec, with_spec
 
-FORMATS = ("step", "bom", "dxf", "fem", "all")
+if TYPE_CHECKING:
+    from fluxbore.geometry.standing import Standing
+
+FORMATS = ("step", "bom", "dxf", "fem", "glb", "stl", "3mf", "all")
 """As in `fluxbore.exporting`, which is not loaded for --help."""
 
 
@@ -23,16 +27,44 @@ def add_to(command: argparse.ArgumentParser) -> None:
     command.add_argument("--json", action="store_true", help="print JSON")
 
 
-def run(options: argparse.Namespace) -> str | dict[str, Any]:
-    """Write the files; what to print, text or JSON."""
-    from fluxbore.api import export
+def run(options: argparse.Namespace) -> tuple[bool, str | dict[str, Any]]:
+    """Write the files. Whether the parts fit one another; what to print, text or JSON."""
+    from fluxbore.exporting import export_checked
 
-    found = export(
-        read_spec(options),
-        options.output,
-        force=options.force,
-        form=options.format or ["step"],
-        schema=options.schema,
+    found = export_checked(
+        read_spec(options), options.output, options.format or ["step"], schema=options.schema, force=options.force
     )
-    files = [str(path) for path in found]
-    return {"status": "ok", "reasons": [], "files": files} if options.json else "\n".join(files)
+    files = [str(path) for path in found.files]
+    reasons = [reason for standing in found.standings for reason in _reasons(standing)]
+    if not options.json:
+        return found.sound, "\n".join([*files, *(_line(standing) for standing in found.standings), *reasons])
+    plain: dict[str, Any] = {"status": "ok" if found.sound else "parts overlap", "reasons": reasons, "files": files}
+    if found.standings:
+        plain["places"] = [asdict(standing) for standing in found.standings]
+    return found.sound, plain
+
+
+def _reasons(standing: Standing) -> list[str]:
+    """A sentence for each two parts that overlap and should not."""
+    return [
+        f"{item.first} and {item.second} must not overlap, {standing.place}; they share {_volume(item.volume)}."
+        for item in standing.interferences
+        if not item.designed
+    ]
+
+
+def _line(standing: Standing) -> str:
+    """One place: what is squeezed by design, and the narrowest gap that moves."""
+    designed = [item for item in standing.interferences if item.designed]
+    squeezes = ", ".join(f"{item.first} in {item.second} {_volume(item.volume)}" for item in designed)
+    gap = standing.gap
+    told = [
+        f"squeezed by design: {squeezes}" if designed else "",
+        f"narrowest gap {gap.distance * 1e3:.4g} mm, {gap.first} to {gap.second}" if gap is not None else "",
+    ]
+    where = f"{standing.place}, {standing.position * 1e3:.6g} mm: "
+    return where + ("; ".join(words for words in told if words) or "no parts overlap")
+
+
+def _volume(volume: float) -> str:
+    return f"{volume * 1e9:.3g} mm³"

@@ -15,8 +15,10 @@ from typing import TYPE_CHECKING
 from fluxbore.actuators import ACTUATORS, STROKE_PLACES, actuator_of, assembly_of
 from fluxbore.design.errors import SpecError
 from fluxbore.design.spec import Spec
+from fluxbore.geometry import own_files
 from fluxbore.geometry.assembly import Assembly
-from fluxbore.geometry.step_files import own_files
+from fluxbore.geometry.file_names import file_name
+from fluxbore.geometry.standing import Standing, standings
 from fluxbore.optimize.folder import Folder, open_folder
 
 if TYPE_CHECKING:
@@ -24,7 +26,7 @@ if TYPE_CHECKING:
 
 STEP_SCHEMAS = ("AP242", "AP214")
 
-Contents = Mapping[str, str | bytes]
+Contents = own_files.Contents
 """Name below the folder -> what the file holds."""
 
 
@@ -54,8 +56,6 @@ class Job:
     @property
     def stem(self) -> str:
         """The name of files that hold the whole."""
-        from fluxbore.geometry.step import file_name
-
         return file_name(self.assembly.name)
 
 
@@ -64,11 +64,19 @@ class Format:
     """One word after ``--format``. contents : its files, for a job; raises FluxboreError where a kind has none.
 
     summary : what it is, for --help. able : whether a kind has such files at all; "all" leaves out those that do not.
+    parts : whether they show parts, so that these had better not overlap.
     """
 
     summary: str
     contents: Callable[[Job], Contents]
     able: Callable[[Spec], bool] = lambda spec: True
+    parts: bool = True
+
+
+def _step(job: Job) -> Contents:
+    from fluxbore.geometry.step import step_texts
+
+    return step_texts(job.places, job.items, job.spec.materials, job.schema)
 
 
 def _dxf(job: Job) -> Contents:
@@ -93,15 +101,39 @@ def _fem(job: Job) -> Contents:
     return {f"{job.stem}.fem": write_text(make(job.spec))}
 
 
+def _glb(job: Job) -> Contents:
+    from fluxbore.model_formats import glb_files
+
+    return glb_files(job)
+
+
+def _stl(job: Job) -> Contents:
+    from fluxbore.model_formats import stl_files
+
+    return stl_files(job)
+
+
+def _three_mf(job: Job) -> Contents:
+    from fluxbore.model_formats import three_mf_files
+
+    return three_mf_files(job)
+
+
 FORMATS: dict[str, Format] = {
+    "step": Format("STEP files of the whole at three places of its stroke, and of every part", _step),
     "bom": Format("bill of materials as CSV", _bom),
     "dxf": Format("section as DXF", _dxf),
-    "fem": Format("FEMM model of the field", _fem, lambda spec: actuator_of(spec).femm_model is not None),
+    "fem": Format("FEMM model of the field", _fem, lambda spec: actuator_of(spec).femm_model is not None, parts=False),
+    "glb": Format("the whole as GLB, in metres, for viewers", _glb),
+    "stl": Format("every part as binary STL, in millimetres, for printers", _stl),
+    "3mf": Format("the whole as 3MF, in millimetres, for printers", _three_mf),
 }
-"""Every format by its word but STEP, whose files take one another's place as a whole (`fluxbore.geometry.step`)."""
+"""Every format by its word."""
 
-STEP = "step"
-WORDS = (STEP, *FORMATS, "all")
+WORDS = (*FORMATS, "all")
+
+OF_A_RUN = ("step", "dxf", "pdf", "glb", "bom", "winding")
+"""What `fluxbore design` leaves, as far as the table has it: what a workshop needs, and a picture to turn."""
 
 
 def wanted(spec: Spec, words: Sequence[str]) -> tuple[str, ...]:
@@ -109,42 +141,49 @@ def wanted(spec: Spec, words: Sequence[str]) -> tuple[str, ...]:
     for word in words:
         if word not in WORDS:
             raise SpecError(f'A format must be one of {", ".join(WORDS)}; got "{word}".')
-    every = (STEP, *(word for word, form in FORMATS.items() if form.able(spec)))
+    every = tuple(word for word, form in FORMATS.items() if form.able(spec))
     return tuple(dict.fromkeys(found for word in words for found in (every if word == "all" else (word,))))
+
+
+@dataclass(frozen=True, slots=True)
+class Export:
+    """Files that were written, and of formats that show parts how these stand to one another."""
+
+    files: tuple[Path, ...]
+    standings: tuple[Standing, ...] = ()
+
+    @property
+    def sound(self) -> bool:
+        """Whether no parts overlap but those that are meant to."""
+        return all(standing.sound for standing in self.standings)
 
 
 def export_files(
     spec: Spec, folder: Path | str, formats: Sequence[str], *, schema: str = STEP_SCHEMAS[0], force: bool = False
 ) -> list[Path]:
+    """The files of `export_checked`."""
+    return list(export_checked(spec, folder, formats, schema=schema, force=force).files)
+
+
+def export_checked(
+    spec: Spec, folder: Path | str, formats: Sequence[str], *, schema: str = STEP_SCHEMAS[0], force: bool = False
+) -> Export:
     """Write the files of these formats into the folder, which is opened when all contents are there.
 
-    Raises what `wanted`, a format or `open_folder` raises; then nothing is written.
+    Raises what `wanted`, a format, `open_folder` or `own_files.put` raises; then nothing is written.
     """
-    from fluxbore.geometry.solid import load_cadquery
-
+    if schema not in STEP_SCHEMAS:
+        raise SpecError(f'The schema of STEP files must be {" or ".join(STEP_SCHEMAS)}; got "{schema}".')
     words, job = wanted(spec, formats), Job(spec, schema)
-    if STEP in words:
-        load_cadquery()  # before the folder is touched: without it there is nothing to write
-    made = {name: text for word in words if word != STEP for name, text in FORMATS[word].contents(job).items()}
+    made = {word: FORMATS[word].contents(job) for word in words}
+    shown = any(FORMATS[word].parts for word in words)
+    found = standings(job.places) if shown else ()
     with open_folder(folder, spec, force) as place:
-        files = _write_step(job, place.path) if STEP in words else []
-        return files + [place.write(name, content) for name, content in made.items()]
+        return Export(tuple(own_files.put(place.path, made, spec.fingerprint(), force)), found)
 
 
 def write_cad(spec: Spec, folder: Folder, below: str) -> list[Path]:
-    """What a whole run leaves: STEP files, and the drawing where the parts say how they are dimensioned."""
+    """What a whole run leaves below its folder: the formats `OF_A_RUN`."""
     job = Job(spec)
-    files = _write_step(job, folder.path / below)
-    if not job.assembly.measures:
-        return files
-    made = _dxf(job)
-    for path in own_files(folder.path / below, ".dxf"):
-        if path.name not in made:
-            path.unlink()
-    return files + [folder.write(f"{below}/{name}", content) for name, content in made.items()]
-
-
-def _write_step(job: Job, folder: Path) -> list[Path]:
-    from fluxbore.geometry.step import write_step
-
-    return write_step(job.assembly, folder)
+    made = {word: FORMATS[word].contents(job) for word in OF_A_RUN if word in FORMATS and FORMATS[word].able(spec)}
+    return own_files.put(folder.path / below, made, spec.fingerprint())
