@@ -26,8 +26,7 @@ END_CONDITIONS = {"fixed-free": 2.0, "pinned-pinned": 1.0, "fixed-pinned": 0.699
 def free_length(actuator: HybridActuator) -> float:
     """Rod beyond the rod-end cap's outer face when fully extended (m); zero where it does not reach out."""
     extended = actuator.mid_stroke + actuator.mover.stroke / 2 - actuator.piston.length + actuator.shaft.length
-    face = actuator.middle + actuator.cylinder.length / 2 + actuator.end_caps.flange_length
-    return max(extended - face, 0.0)
+    return max(extended - actuator.rod_face, 0.0)
 
 
 def section(diameter: float) -> tuple[float, float]:

@@ -38,6 +38,7 @@ class BackYoke:
     front_overhang: float  # L_f, beyond the winding at the rod end
     back_overhang: float  # L_b, beyond the winding at the cap end
     material: str
+    lead_hole: float = 4e-3  # in the back overhang, for the winding's leads
 
     @property
     def thickness(self) -> float:
@@ -79,6 +80,7 @@ class Mover:
     magnet_permeability: float | None  # mu_r of the recoil line; None takes the grade's
     ring_material: str
     stroke: float  # L_mr
+    longest_magnet: float | None = None  # that can be made and magnetised in one piece; None takes any
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,13 +106,23 @@ class Piston:
 
 @dataclass(frozen=True, slots=True)
 class EndCaps:
-    """Cap-end and rod-end covers: a spigot in the tube, a flange outside, one radial port each."""
+    """Cap-end and rod-end covers: a spigot in the tube, a flange outside, one radial port each. Lengths in metres.
+
+    Threads are names of `fluxbore.design.screw_thread`; without a port's the port is drilled plain.
+    """
 
     flange_diameter: float
     flange_length: float
-    port_diameter: float
+    port_diameter: float  # of the bore that the air flows through
     rod_clearance: float  # radial, around the shaft at the rod end
     material: str
+    port_thread: str | None = None
+    nose_length: float = 0.0  # of the rod-end cap beyond its flange
+    ring_section: float = 1.5e-3  # of the O-rings on both spigots and around the rod
+    screw_thread: str = "M3"  # of the screws through the tube into a spigot
+    screws: int = 4  # in each spigot; 0 where caps are bonded
+    mounting_thread: str = "M3"  # of the holes in the cap end's flange
+    mounting_holes: int = 4
 
 
 @dataclass(frozen=True, slots=True)
@@ -191,6 +203,11 @@ class HybridActuator:
         """z of the two end caps' inner faces (m): array, two pistons and the stroke between them."""
         half = (self.array_length + self.mover.stroke) / 2 + self.piston.length
         return self.middle - half, self.middle + half
+
+    @property
+    def rod_face(self) -> float:
+        """z of the outer face of the rod-end cap, from which the rod is free (m)."""
+        return self.middle + self.cylinder.length / 2 + self.end_caps.flange_length + self.end_caps.nose_length
 
     @property
     def air_gap(self) -> float:

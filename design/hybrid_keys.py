@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from fluxbore.design.contact_force_keys import CONTACT_FORCE_KEYS
+from fluxbore.design.hybrid_operating_keys import OPERATING_KEYS
 from fluxbore.design.keys import Alternatives, Key
 from fluxbore.design.materials import Conductor, Material, PermanentMagnet
+from fluxbore.design.screw_thread import PORTS, SCREWS
 from fluxbore.design.seal_keys import FIN_KEYS, SEAL_KEYS
 from fluxbore.design.solver_keys import solver_keys
 
@@ -44,6 +46,13 @@ HYBRID_KEYS: tuple[Key, ...] = (
     _length("back_yoke.front_overhang", "L_f", "back yoke beyond the winding at the rod end", zero=True),
     _length("back_yoke.back_overhang", "L_b", "back yoke beyond the winding at the cap end", zero=True),
     _material("back_yoke.material", "soft iron of the back yoke"),
+    _length(
+        "back_yoke.lead_hole",
+        "",
+        "hole for the winding's leads in the back overhang; at most half of the overhang is drilled",
+        default=4e-3,
+        zero=True,
+    ),
     Key(
         "actuator.back_yoke.emissivity",
         "of the actuator's outside for heat radiation: 0.1 for bright metal and plating, 0.9 for paint",
@@ -120,6 +129,10 @@ HYBRID_KEYS: tuple[Key, ...] = (
         maximum=10.0,
         optional=True,
     ),
+    _optional_length(
+        "mover.longest_magnet",
+        "longest magnet made and magnetised in one piece; longer ones are bonded of equal rings. Without it any length",
+    ),
     _material("mover.ring_material", "soft iron of the rings"),
     _length("mover.stroke", "L_mr", "stroke length"),
     _length("shaft.outer_diameter", "D_s", "shaft outer diameter"),
@@ -142,120 +155,60 @@ HYBRID_KEYS: tuple[Key, ...] = (
     *SEAL_KEYS,
     _length("end_caps.flange_diameter", "", "outer diameter of the end caps"),
     _length("end_caps.flange_length", "", "axial length of an end cap outside the tube"),
-    _length("end_caps.port_diameter", "", "diameter of the air port in each end cap"),
+    _length("end_caps.port_diameter", "", "diameter of the air port in each end cap, drilled plain"),
+    Key(
+        "actuator.end_caps.port_thread",
+        "thread of the air port in each end cap; the flow bore beneath it follows",
+        kind="word",
+        choices=tuple(PORTS),
+    ),
     _length("end_caps.rod_clearance", "", "radial clearance of the rod-end cap around the shaft", zero=True),
-    _material("end_caps.material", "material of the end caps"),
-    Key(
-        "operating_point.pressure",
-        "supply pressure of the pneumatic forces; the lips seal pressure, and a vacuum would lift them",
-        dimension="pressure",
-        minimum=0.0,
-        maximum=1e9,
-        default=0.6e6,
-    ),
-    Key(
-        "operating_point.current",
-        "amplitude of the balanced three-phase current",
-        dimension="current",
-        minimum=0.0,
-        maximum=1e6,
-        default=1.0,
-    ),
-    Key(
-        "operating_point.peak_current",
-        "largest amplitude that the drive ever sends; without it the current",
-        dimension="current",
-        minimum=0.0,
-        maximum=1e6,
-        optional=True,
-    ),
-    Key(
-        "operating_point.duty",
-        "share of the time for which the current flows, in spells far shorter than the winding takes to warm",
-        kind="number",
-        above=0.0,
-        maximum=1.0,
-        default=1.0,
-    ),
-    Key(
-        "operating_point.speed",
-        "of the mover, for back-EMF, losses and friction",
-        dimension="speed",
-        minimum=0.0,
-        maximum=1e3,
+    _length(
+        "end_caps.nose_length",
+        "",
+        "of the rod-end cap beyond its flange: room for the rod's seal and bush",
         default=0.0,
+        zero=True,
     ),
     Key(
-        "operating_point.supply_voltage",
-        "direct voltage that feeds the inverter; without it no figure of the supply's limits",
-        dimension="voltage",
+        "actuator.end_caps.ring_section",
+        "section of the O-rings on the spigots and around the rod; thinner ones are taken where room is short",
         above=0.0,
-        maximum=1e5,
-        optional=True,
+        maximum=7e-3,
+        default=1.5e-3,
     ),
     Key(
-        "operating_point.ambient_temperature",
-        "of the still air around",
-        dimension="temperature",
-        above=200.0,
-        maximum=1000.0,
-        default=293.15,
+        "actuator.end_caps.screw_thread",
+        "of the set screws through the tube into each spigot",
+        kind="word",
+        choices=tuple(SCREWS),
+        default="M3",
     ),
     Key(
-        "operating_point.winding_temperature_limit",
-        "mean temperature that the winding bears, 130 degC in thermal class B of IEC 60085",
-        dimension="temperature",
-        above=200.0,
-        maximum=1000.0,
-        default=403.15,
-    ),
-    Key(
-        "operating_point.winding_temperature",
-        "temperature of the winding, for its resistance",
-        dimension="temperature",
-        above=0.0,
-        maximum=1000.0,
-        default=293.15,
-    ),
-    Key(
-        "operating_point.magnet_temperature",
-        "temperature of the magnets, for remanence and coercivity",
-        dimension="temperature",
-        above=0.0,
-        maximum=1000.0,
-        default=293.15,
-    ),
-    Key(
-        "operating_point.coldest_temperature",
-        "at which the fin still seals",
-        dimension="temperature",
-        above=200.0,
-        maximum=1000.0,
-        default=283.15,
-    ),
-    Key(
-        "operating_point.hottest_temperature",
-        "of fin and bore",
-        dimension="temperature",
-        above=200.0,
-        maximum=1000.0,
-        default=313.15,
-    ),
-    Key(
-        "operating_point.first_position",
-        "cap-side end of the window of positions over which figures are averaged",
-        symbol="z",
-        default=0.024,
-    ),
-    Key("operating_point.last_position", "rod-side end of that window", symbol="z", default=0.031),
-    Key(
-        "operating_point.positions",
-        "number of equally spaced positions in the window, both ends included",
+        "actuator.end_caps.screws",
+        "set screws in each spigot; 0 where the caps are bonded",
         kind="integer",
-        minimum=1,
-        maximum=1000,
-        default=8,
+        minimum=0,
+        maximum=24,
+        default=4,
     ),
+    Key(
+        "actuator.end_caps.mounting_thread",
+        "of the mounting holes in the cap end's flange",
+        kind="word",
+        choices=tuple(SCREWS),
+        default="M3",
+    ),
+    Key(
+        "actuator.end_caps.mounting_holes",
+        "threaded holes along the axis in the cap end's flange",
+        kind="integer",
+        minimum=0,
+        maximum=24,
+        default=4,
+    ),
+    _material("end_caps.material", "material of the end caps"),
+    *OPERATING_KEYS,
     *solver_keys("position"),
     Key(
         "solver.factorisation",
@@ -285,6 +238,9 @@ HYBRID_ALTERNATIVES: tuple[Alternatives, ...] = (
         ("actuator.winding.turns", "actuator.winding.turns_density"), 1, "turns = density x the phase's window area"
     ),
     Alternatives(("actuator.mover.ring_width", "actuator.mover.magnet_thickness"), 1, "tau_m = tau - tau_f"),
+    Alternatives(
+        ("actuator.end_caps.port_diameter", "actuator.end_caps.port_thread"), 1, "a threaded port has its own flow bore"
+    ),
 )
 
 HYBRID_MATERIALS: dict[str, type[Material]] = {

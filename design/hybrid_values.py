@@ -19,6 +19,7 @@ from fluxbore.design.hybrid import (
     Winding,
 )
 from fluxbore.design.keys import Value, Values
+from fluxbore.design.screw_thread import PORTS
 from fluxbore.design.units import format_quantity
 
 _Part = TypeVar("_Part", BackYoke, Winding, Cylinder, Mover, Shaft, Piston, EndCaps)
@@ -34,7 +35,8 @@ def resolve(given: Values) -> dict[str, Value]:
     """Complete the given keys by those that follow from them, so that every key of the table has a value.
 
     The degrees of freedom of the table's `Alternatives`: two of the yoke's three radial dimensions, two of its three
-    axial ones, one of each other pair. Raises nothing: a combination that cannot be built is `HybridActuator.check`'s.
+    axial ones, one of each other pair; a port's thread sets its bore. Raises nothing: what cannot be built
+    is refused by `HybridActuator.check`.
     """
     values = dict(given)
 
@@ -75,6 +77,9 @@ def resolve(given: Values) -> dict[str, Value]:
     else:
         values[winding + "turns_density"] = number(winding + "turns") / room if room > 0 else math.inf
     values.setdefault(winding + "insulated_diameter", ENAMELLED * number(winding + "wire_diameter"))
+    caps = "actuator.end_caps."
+    if caps + "port_thread" in values:
+        values[caps + "port_diameter"] = PORTS[str(values[caps + "port_thread"])].flow
     if "actuator.piston.material" in values:
         values.setdefault("actuator.piston.fin_material", values["actuator.piston.material"])
     values.setdefault("operating_point.peak_current", number("operating_point.current"))

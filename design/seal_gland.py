@@ -119,3 +119,11 @@ def designed_gland(bore: float, section: float, *, squeeze: float = 0.14, stretc
         )
     width = math.pi / 4 * placed**2 / (0.75 * depth)
     return SealGland(bore, groove, width, groove / (1 + stretch), section)
+
+
+def designed_rod_gland(rod: float, section: float, *, squeeze: float = 0.14, stretch: float = 0.02) -> SealGland:
+    """The same around a rod (m), its groove in what surrounds the rod: the ring lies stretched on the rod as it would
+    on a groove's floor, so that `groove_diameter` is the rod's and `bore` that of the groove's floor."""
+    deep = designed_gland(100 * section, section, squeeze=squeeze, stretch=stretch)
+    depth = (deep.bore - deep.groove_diameter) / 2
+    return SealGland(rod + 2 * depth, rod, deep.groove_width, rod / (1 + stretch), section)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from fluxbore.design.materials import Material
 from fluxbore.geometry.assembly import Assembly
-from fluxbore.geometry.part import Body, mass, volume
+from fluxbore.geometry.part import Body, volume
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,11 +21,12 @@ class PartMass:
 
 def part_masses(assembly: Assembly, materials: Mapping[str, Material]) -> tuple[PartMass, ...]:
     """Every part with its volume and mass, in the assembly's order."""
-    return tuple(PartMass(part, volume(part), _mass(part, materials)) for part in assembly.parts)
+    return tuple(_weighed(part, materials) for part in assembly.parts)
 
 
-def _mass(part: Body, materials: Mapping[str, Material]) -> float:
-    return mass(part, materials[part.material].density) if part.material else 0.0
+def _weighed(part: Body, materials: Mapping[str, Material]) -> PartMass:
+    found = volume(part)
+    return PartMass(part, found, materials[part.material].density * part.fill * found if part.material else 0.0)
 
 
 def total(rows: tuple[PartMass, ...], group: str | None = None) -> float:

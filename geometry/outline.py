@@ -111,6 +111,8 @@ def is_simple(profile: Profile) -> bool:
     sides = list(edges(profile))
     if any(math.dist(a, b) < RESOLUTION for a, b in sides) or turned(profile)[0] <= 0:
         return False
+    if _is_convex(sides):
+        return True
     for i, j in itertools.combinations(range(len(sides)), 2):
         if j - i == 1 or (i == 0 and j == len(sides) - 1) or _apart(sides[i], sides[j]):
             continue
@@ -129,6 +131,16 @@ def _apart(a: Edge, b: Edge) -> bool:
         return True
     low, high = (r0, r1) if r0 < r1 else (r1, r0)
     return (r2 > high + RESOLUTION and r3 > high + RESOLUTION) or (r2 < low - RESOLUTION and r3 < low - RESOLUTION)
+
+
+def _is_convex(sides: list[Edge]) -> bool:
+    """Whether an outline turns left at every vertex, and once around in all, as a ring of round section does."""
+    steps = [(r1 - r0, z1 - z0) for (r0, z0), (r1, z1) in sides]
+    turns = itertools.pairwise((*steps, steps[0]))
+    if not all(dr0 * dz1 - dz0 * dr1 > 0 for (dr0, dz0), (dr1, dz1) in turns):
+        return False
+    rising = [dz > 0 or (dz == 0 and dr < 0) for dr, dz in steps]
+    return sum(before != after for before, after in itertools.pairwise((*rising, rising[0]))) == 2
 
 
 def _is_rectangle(profile: Profile) -> bool:

@@ -180,8 +180,15 @@ def _drilled(profile: Profile, centre: float, diameter: float, bottom: float) ->
     heights at which the profile has a vertex, in an angle that takes away the square root at the hole's rim.
     """
     radius = diameter / 2
-    inside = {math.asin((z - centre) / radius) for _, z in profile if abs(z - centre) < radius}
+    above = [edge for edge in crossed(profile, centre) if max(edge[0][0], edge[1][0]) > bottom]
+    if all(a[0] == b[0] for a, b in above) and not any(r > bottom and abs(z - centre) < radius for r, z in profile):
+        # Cylinders alone; what there is below the bottom, material or not, stays as it is.
+        radii = [0.0] * (len(above) % 2) + [a[0] for a, _ in above]
+        solids = [_from_cylinder(r, radius, bottom) for r in radii]
+        whole, radial = (sum(one[i] for one in solids[1::2]) - sum(one[i] for one in solids[::2]) for i in (0, 1))
+        return whole, radial, whole * centre
     # Halves as well: the profile need not be symmetric, and shorter stretches cost little.
+    inside = {math.asin((z - centre) / radius) for _, z in profile if abs(z - centre) < radius}
     stations = sorted({-math.pi / 2, 0.0, math.pi / 2, *inside})
     whole = radial = axial = 0.0
     for low, high in itertools.pairwise(stations):
@@ -198,6 +205,18 @@ def _drilled(profile: Profile, centre: float, diameter: float, bottom: float) ->
                 radial += sign * step * moment
                 axial += sign * step * chord * z
     return whole, radial, axial
+
+
+@lru_cache(maxsize=1024)  # few designs of a search move the radii at a hole
+def _from_cylinder(r: float, radius: float, bottom: float) -> tuple[float, float]:
+    """The first two integrals of `_drilled` for a hole into a solid cylinder; one half is the other's mirror image."""
+    whole = radial = 0.0
+    for node, weight in zip(_NODES, _WEIGHTS, strict=True):
+        half = radius * math.cos((1 + node) * math.pi / 4)
+        chord, moment = _chord(r, half, bottom)
+        whole += weight * math.pi / 2 * half * chord
+        radial += weight * math.pi / 2 * half * moment
+    return whole, radial
 
 
 def _chord(r: float, half: float, bottom: float) -> tuple[float, float]:

@@ -15,5 +15,5 @@ def table_ii() -> HybridActuator:
         mover=Mover(12 * MM, 1.5 * MM, 4, 15.9 * MM, "N48", 1.4, 1.05, "1010", 88 * MM),
         shaft=Shaft(8 * MM, 235 * MM, "stainless steel 304"),
         piston=Piston(8 * MM, 16.3 * MM, 15.4 * MM, 1.8 * MM, 0.3 * MM, "POM"),
-        end_caps=EndCaps(27 * MM, 12 * MM, 5 * MM, 0.05 * MM, "aluminium 6061"),
+        end_caps=EndCaps(27 * MM, 12 * MM, 3 * MM, 0.05 * MM, "aluminium 6061", "M5", 6 * MM),
     )

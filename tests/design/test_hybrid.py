@@ -64,7 +64,12 @@ def test_identities_hold_whichever_keys_are_given(d_i, thickness, front, back, p
         mover + "ring_width": share * pitch,
         mover + "magnet_thickness": (1 - share) * pitch,
     }
-    following = {winding + "insulated_diameter": 0.44e-3, "operating_point.peak_current": 2.0}
+    caps = "actuator.end_caps."
+    following = {
+        caps + "port_diameter": 3e-3,
+        winding + "insulated_diameter": 0.44e-3,
+        "operating_point.peak_current": 2.0,
+    }
     fixed = {
         "actuator.piston.material": "POM",
         winding + "wire_diameter": 0.4e-3,
@@ -76,9 +81,10 @@ def test_identities_hold_whichever_keys_are_given(d_i, thickness, front, back, p
     given_keys = dict(fixed)
     for group in IPEHLA.kind.alternatives:
         chosen = data.draw(st.permutations(group.keys))[: group.count]
-        given_keys |= {key: whole[key] for key in chosen}
+        given_keys |= {key: {**whole, caps + "port_thread": "M5", caps + "port_diameter": 3e-3}[key] for key in chosen}
     resolved = resolve(given_keys)
     assert resolved.pop("actuator.piston.fin_material") == "POM"
+    assert resolved.pop(caps + "port_thread", "M5") == "M5"
     assert set(resolved) == set(whole) | set(fixed) | set(following)
     scale = whole[yoke + "outer_diameter"] + whole[yoke + "length"]
     for key, value in {**whole, **following}.items():
