@@ -24,6 +24,7 @@ __version__ = "0.1.0"
 
 __all__ = [
     "BenchmarkResult",
+    "ComparisonResult",
     "Evaluation",
     "FemmSolution",
     "FluxboreError",
@@ -35,6 +36,7 @@ __all__ = [
     "Spec",
     "SweepResult",
     "ToleranceResult",
+    "compare",
     "design",
     "evaluate",
     "export",
@@ -52,6 +54,7 @@ __all__ = [
 
 if TYPE_CHECKING:
     from fluxbore.api import (
+        compare,
         design,
         evaluate,
         export,
@@ -65,6 +68,7 @@ if TYPE_CHECKING:
         sweep,
         tolerance,
     )
+    from fluxbore.comparing import ComparisonResult
     from fluxbore.design.errors import FluxboreError
     from fluxbore.design.performance import Performance
     from fluxbore.design.spec import Spec
@@ -79,6 +83,7 @@ if TYPE_CHECKING:
 
 _HOMES = {
     "BenchmarkResult": "fluxbore.optimize.benchmark",
+    "ComparisonResult": "fluxbore.comparing",
     "FluxboreError": "fluxbore.design.errors",
     "Performance": "fluxbore.design.performance",
     "Spec": "fluxbore.design.spec",

@@ -8,6 +8,7 @@ from pathlib import Path
 from tempfile import TemporaryFile
 from time import monotonic
 
+from fluxbore.comparing import COMPARISON_FILE, ComparisonResult, compare
 from fluxbore.design.errors import FluxboreError, OutputError
 from fluxbore.design.spec import Spec
 from fluxbore.design_result import DesignResult, judged
@@ -31,9 +32,12 @@ from fluxbore.workshop import DESIGN_FILE, design_text, workshop
 
 __all__ = [
     "CAD_FOLDER",
+    "COMPARISON_FILE",
     "DESIGN_FILE",
     "REPORT_FILE",
+    "ComparisonResult",
     "DesignResult",
+    "compare",
     "design",
     "evaluate",
     "export",

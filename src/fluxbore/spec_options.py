@@ -14,9 +14,12 @@ if TYPE_CHECKING:
     from fluxbore.design.spec import Spec
 
 
-def with_spec(parser: argparse.ArgumentParser) -> argparse.ArgumentParser:
-    """SPEC and ``--set``."""
-    parser.add_argument("spec", metavar="SPEC", type=path_name, help="specification file (TOML)")
+def with_spec(parser: argparse.ArgumentParser, *, several: str = "") -> argparse.ArgumentParser:
+    """SPEC and ``--set``. several : what more than one SPEC means; they then are ``specs``."""
+    if several:
+        parser.add_argument("specs", metavar="SPEC", type=path_name, nargs="+", help=several)
+    else:
+        parser.add_argument("spec", metavar="SPEC", type=path_name, help="specification file (TOML)")
     parser.add_argument(
         "--set",
         metavar="KEY=VALUE",
@@ -73,6 +76,17 @@ def seconds(text: str) -> float:
     if not (math.isfinite(value) and value > 0):
         raise argparse.ArgumentTypeError(f"must be a number of seconds above 0; got {shown(text)}")
     return value
+
+
+def share(text: str) -> float:
+    """Per cent, as a share."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not (math.isfinite(value) and 0 <= value < 100):
+        raise argparse.ArgumentTypeError(f"must be per cent from 0 to below 100; got {shown(text)}")
+    return value / 100
 
 
 def address(text: str) -> str:

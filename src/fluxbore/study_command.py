@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Protocol
 
-from fluxbore.design.errors import DesignError
+from fluxbore.design.errors import DesignError, SpecError
 from fluxbore.exit_status import DONE, INTERRUPTED, NOT_VALID
-from fluxbore.spec_options import path_name, read_spec, with_fidelity, with_run, with_spec
+from fluxbore.spec_options import path_name, read_spec, share, with_fidelity, with_run, with_spec
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,11 +46,20 @@ def add_to(add: Add) -> None:
     )
     with_run(add("robust", _robust, "search for the best design that reaches the yield"), folder_needed=False)
 
-    report = with_spec(add("report", _report, "write the report of the specification's own design"))
+    report = with_spec(
+        add("report", _report, "write the report of the specification's own design, or compare several designs"),
+        several="specification files (TOML); several are compared, as are folders of finished runs",
+    )
     report.add_argument(
         "-o", "--output", metavar="FILE", type=path_name, required=True, help="the HTML file, or a folder for it"
     )
     report.add_argument("--no-picture", action="store_true", help="do without the rendered picture")
+    report.add_argument(
+        "--same",
+        type=share,
+        metavar="PERCENT",
+        help="figures of a comparison no further apart are the same; default: 0.1",
+    )
     report.add_argument("--force", action="store_true", help="replace the file where it exists")
     report.add_argument("--json", action="store_true", help="print JSON")
 
@@ -147,12 +156,34 @@ def _report(options: argparse.Namespace) -> Answer:
     from fluxbore.api import REPORT_FILE, report
     from fluxbore.design_messages import design_plain
 
+    if len(options.specs) > 1:
+        return _compare(options)
+    (options.spec,) = options.specs
+    if options.same is not None:
+        raise SpecError("--same must be left out for one design; got one.")
     spec = read_spec(options)
-    target = Path(options.output)
-    target = target if target.suffix.lower() in (".html", ".htm") else target / REPORT_FILE
+    target = _page(options, REPORT_FILE)
     found = report(spec, target, force=options.force, picture=not options.no_picture, command=options.arguments)
     text = "\n".join([*found.reasons, *(str(path) for path in found.files)])
     return Answer(DONE if found.ok else NOT_VALID, design_plain(found) if options.json else text)
+
+
+def _compare(options: argparse.Namespace) -> Answer:
+    from fluxbore.api import COMPARISON_FILE, compare
+    from fluxbore.comparison_messages import comparison_plain, comparison_text
+
+    if options.set:
+        raise SpecError("--set must be left out where several designs are compared; got one.")
+    target = _page(options, COMPARISON_FILE)
+    found = compare(options.specs, target, same=options.same, force=options.force, command=options.arguments)
+    plain = comparison_plain(found) if options.json else comparison_text(found)
+    return Answer(DONE if found.ok else NOT_VALID, plain)
+
+
+def _page(options: argparse.Namespace, name: str) -> Path:
+    """The file that ``--output`` means: itself, or one of this name in the folder."""
+    target = Path(options.output)
+    return target if target.suffix.lower() in (".html", ".htm") else target / name
 
 
 def _design(options: argparse.Namespace) -> Answer:
