@@ -5,8 +5,11 @@ Components stand in the order in which power flows; each holds what its data she
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from fluxbore.design.keys import Alternatives, Key
 from fluxbore.design.materials import Material
+from fluxbore.design.threads import PORTS, SCREWS, Thread
 from fluxbore.design.tracking_benchmark_keys import TRACKING_BENCHMARK_KEYS
 
 LARGEST_LENGTH = 10.0
@@ -67,6 +70,10 @@ def _word(name: str, doc: str, default: str | None = None, choices: tuple[str, .
     return Key(f"actuator.{name}", doc, kind="word", default=default, choices=choices)
 
 
+def _thread(name: str, doc: str, table: Mapping[str, Thread]) -> Key:
+    return Key(f"actuator.{name}", doc, kind="word", choices=tuple(table), optional=True)
+
+
 def _orifice(name: str, doc: str) -> tuple[Key, ...]:
     return (
         _length(f"{name}.diameter", f"clear bore of {doc}"),
@@ -83,6 +90,11 @@ def _cylinder(name: str) -> tuple[Key, ...]:
         _length(f"{name}.piston_length", "axial length of the piston", default=12e-3),
         _length(f"{name}.cap_length", "axial length of each end cap beyond the tube", default=15e-3),
         _length(f"{name}.bleed_thread", "thread of the bleed screw in the cap end", default=6e-3),
+        _thread(f"{name}.mounting_thread", "tapped holes in the cap end's face to fix it by; without it none", SCREWS),
+        _length(
+            f"{name}.bush_wall", "wall of the rod's sliding bush; 0 where the cap bears the rod", zero=True, default=0.0
+        ),
+        _length(f"{name}.wiper_width", "axial, of the rod's wiper before the bush; 0 for none", zero=True, default=0.0),
         _quantity(f"{name}.dead_volume", "behind the piston at its end", "volume", 1.0, zero=True, default=0.0),
         _quantity(f"{name}.rated_pressure", "rated pressure", "pressure", 1e9),
         _mass(
@@ -135,6 +147,7 @@ HYDROSTATIC_KEYS: tuple[Key, ...] = (
     _quantity("friction.linear_speed", "below which friction is linear in the speed", "speed", 1.0, default=1e-4),
     *_cylinder("input_cylinder"),
     *_orifice("port", "a cylinder's port"),
+    _thread("port.thread", "of the cylinders' ports, for a connector; without it they are plain drillings", PORTS),
     *_orifice("fitting", "a hose's fitting"),
     _length("hose.bore", "bore"),
     _length("hose.length", "length"),

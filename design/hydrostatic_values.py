@@ -25,6 +25,7 @@ from fluxbore.design.hydrostatic_keys import CONSTANT, CORD, CYLINDERS, LINEAR
 from fluxbore.design.keys import Value, Values
 from fluxbore.design.return_element import ConstantReturn, CordReturn, LinearReturn, ReturnElement
 from fluxbore.design.seal_gland import SealGland, designed_gland
+from fluxbore.design.threads import PORTS, SCREWS, Thread
 from fluxbore.design.units import STANDARD_ATMOSPHERE
 
 UNWEIGHED = 1.0
@@ -42,24 +43,33 @@ _NEEDED = {
 
 @dataclass(frozen=True, slots=True)
 class CylinderShape:
-    """What is drawn of a cylinder beyond its bore, stroke, wall and rod: lengths (m), names of materials."""
+    """What is drawn of a cylinder beyond its bore, stroke, wall and rod: lengths (m), names of materials.
+
+    bush_wall : of the rod's bush, 0 where the cap bears the rod. wiper_width : 0 for none. mounting : the thread of the
+    tapped holes by which it is fixed; None where there are none.
+    """
 
     piston_length: float
     cap_length: float
     bleed_thread: float
     material: str
     rod: str
+    bush_wall: float = 0.0
+    wiper_width: float = 0.0
+    mounting: Thread | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class HydrostaticDesign:
     """An actuator as specified. `unweighed` : the masses that follow from its parts, "output_cylinder.mass" and so on;
-    in `bare` they are `UNWEIGHED`. `shapes` : by cylinder. `gland` : of the output piston's O-ring."""
+    in `bare` they are `UNWEIGHED`. `shapes` : by cylinder. `gland` : of the output piston's O-ring. `port_thread` : of
+    the cylinders' ports, None of plain drillings."""
 
     bare: HydrostaticActuator
     unweighed: tuple[str, ...]
     shapes: Mapping[str, CylinderShape]
     gland: SealGland
+    port_thread: Thread | None = None
 
     @property
     def name(self) -> str:
@@ -189,10 +199,14 @@ def from_values(values: Values) -> HydrostaticDesign:
                 number(f"{name}.bleed_thread"),
                 str(values[f"actuator.{name}.material"]),
                 str(values[f"actuator.{name}.rod"]),
+                number(f"{name}.bush_wall"),
+                number(f"{name}.wiper_width"),
+                SCREWS.get(str(values.get(f"actuator.{name}.mounting_thread"))),
             )
             for name in CYLINDERS
         },
         gland,
+        PORTS.get(str(values.get("actuator.port.thread"))),
     )
 
 

@@ -3,7 +3,7 @@
 z runs along the axis from 0, where the piston rests on the cap end, to the rod's end. From there outwards:
 
     cap end   spigot in the tube | flange: port, radial | passage to the chamber, seat, thread of the bleed screw
-    rod end   spigot in the tube | flange: vent, radial | relief around the rod to the chamber, bearing of the rod
+    rod end   spigot in the tube | flange: vent, radial | relief around the rod to the chamber, bush of the rod, wiper
 
 What has no key follows from one that has, or is a constant with its reason. Lengths in m.
 """
@@ -15,8 +15,7 @@ from dataclasses import dataclass
 from fluxbore.design.errors import DesignError
 from fluxbore.design.hydrostatic_values import HydrostaticDesign
 from fluxbore.design.seal_gland import SealGland, designed_gland
-from fluxbore.design.units import format_quantity
-from fluxbore.geometry.gland_profile import ring_size
+from fluxbore.design.threads import Thread
 
 LEAST_WALL = 1e-3
 """Beside drillings, under the groove and beside it: what a lathe leaves without care."""
@@ -37,6 +36,9 @@ ROD_CLEARANCE = 25e-6
 PORT_SLACK = 1.1
 """Passage over port: drillings of equal width would graze each other."""
 
+PORT_FLOOR = 0.5e-3
+"""From the passage to the bottom of the port's thread, radially; the narrower bore goes on from there."""
+
 VENT = 0.16
 """Vent over bore, diameters: air leaves some 40 times faster than the piston moves, below 20 m/s at 0.5 m/s, for which
 0.3 kPa are enough."""
@@ -56,12 +58,28 @@ NECK, SHANK, RELIEF = 0.25, 0.40, 0.3
 LEAST_THREAD = 0.5
 """Thread diameters that the bleed screw holds on; the pressure behind it is on its tip alone."""
 
+DEEPEST = 2.0
+"""Thread diameters that a tapped hole for fixing goes in; more of it holds no better."""
+
+EDGE, LARGEST_EDGE = 0.3, 0.5e-3
+"""Chamfer of outer edges: of the tube's wall, and at most."""
+
+LEAD_IN = 2.75
+"""Length over depth of the tube's chamfers for the O-ring: 20 degrees."""
+
+LAND_EDGE = 0.2e-3
+"""Chamfer of the piston's lands, each of them no narrower than `LEAST_WALL`."""
+
+ROD_EDGE = 0.15
+"""Chamfer of the rod's end over its radius."""
+
 
 @dataclass(frozen=True, slots=True)
 class CylinderLayout:
     """Radii r_..., heights z_... and lengths of one cylinder (m); the piston's own are from its pressure face.
 
-    gland : of its O-ring. z_groove : middle of the groove, r_groove its floor.
+    gland : of its O-ring. port_thread, mounting : threads of the port and of the holes in the cap end's face, None
+    where there are none. bush_wall, wiper_width : 0 without bush and wiper.
     """
 
     key: str
@@ -80,6 +98,57 @@ class CylinderLayout:
     r_piston: float
     piston_length: float
     gland: SealGland
+    port_thread: Thread | None = None
+    bush_wall: float = 0.0
+    wiper_width: float = 0.0
+    mounting: Thread | None = None
+
+    @property
+    def edge(self) -> float:
+        """Chamfer of outer edges."""
+        return min(EDGE * (self.r_outside - self.r_bore), LARGEST_EDGE)
+
+    @property
+    def lead_in(self) -> float:
+        """Depth of the tube's chamfers, which end half way along the spigots at the latest."""
+        return min(EDGE * (self.r_outside - self.r_bore), self.spigot / (2 * LEAD_IN))
+
+    @property
+    def r_entry(self) -> float:
+        """What the port takes of the flange: its thread, or its bore."""
+        return self.r_port if self.port_thread is None else self.port_thread.diameter / 2
+
+    @property
+    def port_floor(self) -> float:
+        """Distance of the port's thread from the axis."""
+        return self.r_passage + PORT_FLOOR
+
+    @property
+    def r_cap(self) -> float:
+        """Outside of the cap end: the tube's, or what a connector's stud screws into."""
+        stud = 0.0 if self.port_thread is None else self.port_floor + self.port_thread.stud
+        return max(self.r_outside, stud)
+
+    @property
+    def r_bush(self) -> float:
+        """Outside of the rod's bush, or of its bearing where there is none."""
+        return self.r_bearing + self.bush_wall
+
+    @property
+    def z_wiper(self) -> float:
+        """Where the bush ends and the wiper begins, if there is one."""
+        return self.ends[1] - self.wiper_width
+
+    @property
+    def r_mounting(self) -> float:
+        """Pitch circle of the tapped holes, half way between the bleed screw and the cap's outside."""
+        return (self.r_thread + self.r_cap) / 2
+
+    @property
+    def mounting_depth(self) -> float:
+        """Of the tapped holes; below 0 where there is no room before the port."""
+        free = self.z_port - self.r_entry - LEAST_WALL - self.ends[0]
+        return free if self.mounting is None else min(free, DEEPEST * self.mounting.diameter)
 
     @property
     def z_front(self) -> float:
@@ -97,7 +166,7 @@ class CylinderLayout:
 
     @property
     def z_port(self) -> float:
-        return self.tube[0] - LEAST_WALL - self.r_port
+        return self.tube[0] - LEAST_WALL - self.r_entry
 
     @property
     def z_passage(self) -> float:
@@ -110,8 +179,12 @@ class CylinderLayout:
 
     @property
     def z_seat(self) -> float:
-        """Where the neck opens into the 90-degree seat of the bleed screw."""
-        return self.z_passage - LEAST_WALL
+        """Where the neck opens into the 90-degree seat of the bleed screw, which stays clear of the port's thread."""
+        near = self.z_passage - LEAST_WALL
+        if self.port_thread is None:
+            return near
+        opening = max(min(self.r_thread, self.port_floor) - self.r_neck, 0.0)
+        return min(near, self.z_port - self.r_entry - LEAST_WALL + opening)
 
     @property
     def z_vent(self) -> float:
@@ -136,7 +209,10 @@ class CylinderLayout:
 
 
 def layout(design: HydrostaticDesign, name: str) -> CylinderLayout:
-    """Of the "output_cylinder" or the "input_cylinder". Raises DesignError, one sentence, where parts do not fit."""
+    """Of the "output_cylinder" or the "input_cylinder"; whether all fits is `hydrostatic_checks.checked`'s to say.
+
+    Raises DesignError where a dimension is missing.
+    """
     cylinder, shape = getattr(design.bare, name), design.shapes[name]
     key = f"actuator.{name}"
     if cylinder.wall_thickness is None or cylinder.rod_diameter is None:
@@ -148,7 +224,7 @@ def layout(design: HydrostaticDesign, name: str) -> CylinderLayout:
     gland = design.gland
     if gland.bore != cylinder.bore:
         gland = designed_gland(cylinder.bore, gland.ring_section)
-    found = CylinderLayout(
+    return CylinderLayout(
         key=key,
         r_bore=cylinder.bore / 2,
         r_outside=cylinder.bore / 2 + cylinder.wall_thickness,
@@ -167,73 +243,8 @@ def layout(design: HydrostaticDesign, name: str) -> CylinderLayout:
         r_piston=cylinder.bore / 2 - PISTON_CLEARANCE,
         piston_length=shape.piston_length,
         gland=gland,
+        port_thread=design.port_thread,
+        bush_wall=shape.bush_wall,
+        wiper_width=shape.wiper_width,
+        mounting=shape.mounting,
     )
-    _check_piston(found)
-    _check_caps(found)
-    return found
-
-
-def _check_piston(place: CylinderLayout) -> None:
-    floor = place.gland.groove_diameter
-    if not floor < 2 * place.r_piston:
-        raise DesignError(
-            "actuator.seal.groove_diameter must be below the piston's diameter, the bore less its clearance, "
-            f"{_mm(2 * place.r_piston)}; got {_mm(floor)}."
-        )
-    width = ring_size(place.gland)[1]
-    if place.gland.groove_width < width:
-        raise DesignError(
-            f"actuator.seal.groove_width must hold the squeezed O-ring, at least {_mm(width)}; "
-            f"got {_mm(place.gland.groove_width)}."
-        )
-    shortest = place.gland.groove_width + 2 * LEAST_WALL
-    if place.piston_length < shortest:
-        raise DesignError(
-            f"{place.key}.piston_length must hold the O-ring's groove and a land on both sides of it, at least "
-            f"{_mm(shortest)}; got {_mm(place.piston_length)}."
-        )
-    if not floor > 2 * LEAST_WALL:
-        raise DesignError(
-            f"actuator.seal.groove_diameter must leave a wall of the piston around the rod's end, above "
-            f"{_mm(2 * LEAST_WALL)}; got {_mm(floor)}."
-        )
-    thickest = (floor - 2 * LEAST_WALL) / ROD_SPIGOT
-    if 2 * place.r_rod > thickest:
-        raise DesignError(
-            f"{place.key}.rod_diameter must leave a wall of the piston between its groove and the rod's end in it, at "
-            f"most {_mm(thickest)}; got {_mm(2 * place.r_rod)}."
-        )
-
-
-def _check_caps(place: CylinderLayout) -> None:
-    key, most = place.key, place.r_bore - LEAST_WALL
-    widest = 2 * most / PORT_SLACK
-    if 2 * place.r_port > widest:
-        raise DesignError(
-            f"actuator.port.diameter must leave a wall in the spigot of {key}'s cap, at most "
-            f"{_mm(widest)}; got {_mm(2 * place.r_port)}."
-        )
-    thread = 2 * (place.r_outside - LEAST_WALL)
-    if 2 * place.r_thread > thread:
-        raise DesignError(
-            f"{key}.bleed_thread must leave a wall in the cap, at most {_mm(thread)}; got {_mm(2 * place.r_thread)}."
-        )
-    if place.r_relief > most:
-        rod = 2 * max(max(most**2 - place.r_vent**2, 0.0) ** 0.5 - ROD_CLEARANCE, 0.0)
-        raise DesignError(
-            f"{key}.rod_diameter must leave a wall in the spigot of the rod-end cap, at most {_mm(rod)}; "
-            f"got {_mm(2 * place.r_rod)}."
-        )
-    hold = 2 * place.r_thread * (RELIEF + LEAST_THREAD)
-    cap_end = place.tube[0] - place.z_seat + (SHANK * 2 * place.r_thread - place.r_neck) + hold
-    rod_end = place.z_relief - place.tube[1] + place.r_rod
-    for what, shortest in (
-        ("the port, the bleed screw's seat and its thread", cap_end),
-        ("the vent and a bearing of half the rod's diameter", rod_end),
-    ):
-        if place.flange < shortest:
-            raise DesignError(f"{key}.cap_length must hold {what}, at least {_mm(shortest)}; got {_mm(place.flange)}.")
-
-
-def _mm(length: float) -> str:
-    return format_quantity(length, "length", 6)

@@ -49,6 +49,10 @@ def random_values(rng: np.random.Generator) -> dict[str, str]:
     return values | {
         CYLINDER + "bore": f"{bore:.6g} mm",
         CYLINDER + "rod_diameter": f"{bore * rng.uniform(0.1, 1.0):.6g} mm",
+        "actuator.port.thread": str(rng.choice(["", "M5", "M8x1", "G1/8", "G1/4"])),
+        CYLINDER + "mounting_thread": str(rng.choice(["", "M3", "M5"])),
+        CYLINDER + "bush_wall": str(rng.choice(["0 mm", "0.5 mm", "1 mm"])),
+        CYLINDER + "wiper_width": str(rng.choice(["0 mm", "2 mm"])),
         CYLINDER + "rated_pressure": f"{np.exp(rng.uniform(*np.log((1.0, 400.0)))):.4g} bar gauge",
         "actuator.input_cylinder.bore": "100 mm",
         "actuator.input_cylinder.stroke": "5 m",

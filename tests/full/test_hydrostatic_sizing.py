@@ -33,14 +33,14 @@ def test_the_search_finds_the_optimum_that_the_duty_fixes(found: SearchResult) -
 
 
 def test_the_sized_cylinder_is_lighter_than_the_brass_one_for_the_same_duty(found: SearchResult) -> None:
-    """By a third and more, of the same brass; every limit is met by the simulation."""
+    """By a quarter and more, of the same brass, with the same port; every limit is met by the simulation."""
     made, start = found.chosen, found.start.evaluation.performance
     assert made is not None
     assert found.rounded is made
     assert made.feasible
     assert made.evaluation.fidelity == "fem"
     figures = made.evaluation.performance
-    assert figures.output_cylinder_mass < 0.67 * start.output_cylinder_mass
+    assert figures.output_cylinder_mass < 0.73 * start.output_cylinder_mass
     assert figures.distal_mass < 0.9 * start.distal_mass
     assert figures.force_frequency_limit >= start.force_frequency_limit * (1 - 1e-9)
     assert figures.tracking_error <= start.tracking_error

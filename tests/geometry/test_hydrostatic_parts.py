@@ -127,9 +127,13 @@ def test_masses_are_density_times_what_was_added_by_hand(spec: Spec) -> None:
     assert set(masses) == set(WEIGHED)
     place = {part.name: part for part in hydrostatic_parts.assembly(spec.actuator, 0.0).parts}
     steel, brass = spec.materials["stainless steel 304"].density, spec.materials["brass"].density
-    rod = math.pi / 4 * MM**3 * (3.81**2 * 9 + 6.35**2 * (152.4 + 5.005 + 15 + 1.5 * 6.35))
+    edge = 0.15 * 6.35 / 2  # the chamfer: what a cone's rim takes off a cylinder, by Pappus
+    chamfer = math.pi * edge**2 * (6.35 / 2 - edge / 3) * MM**3
+    rod = math.pi / 4 * MM**3 * (3.81**2 * 9 + 6.35**2 * (152.4 + 5.005 + 16 + 1.5 * 6.35)) - chamfer
     assert parts_of.mass(place["rod"], steel) == pytest.approx(steel * rod, rel=1e-9)
-    tube = math.pi / 4 * MM**3 * (15.9**2 - 14.3**2) * (152.4 + 12 + 2 * 5.005)
+    deep = 0.3 * 0.8  # two lead-ins of 20 degrees
+    lead_ins = 2 * math.pi * 2.75 * deep**2 * (14.3 / 2 + deep / 3) * MM**3
+    tube = math.pi / 4 * MM**3 * (15.9**2 - 14.3**2) * (152.4 + 12 + 2 * 5.005) - lead_ins
     assert parts_of.mass(place["cylinder tube"], brass) == pytest.approx(brass * tube, rel=1e-9)
     moving = sum(parts_of.mass(place[name], spec.materials[place[name].material].density) for name in
                  ("piston", "O-ring", "rod"))  # fmt: skip
@@ -178,8 +182,12 @@ def test_a_strip_and_a_cord_weigh_what_holds_their_energy() -> None:
         ("output_cylinder.piston_length", "4 mm", r"piston_length must hold the O-ring's groove .* 4\.12985"),
         ("output_cylinder.rod_diameter", "16 mm", r"rod_diameter must not exceed the bore"),
         ("output_cylinder.rod_diameter", "14 mm", r"rod_diameter must leave a wall in the spigot of the rod-end cap"),
-        ("output_cylinder.cap_length", "11 mm", r"cap_length must hold the port, .* at least 12\.65 mm; got 11 mm"),
-        ("output_cylinder.bleed_thread", "14 mm", r"bleed_thread must leave a wall in the cap, at most 13\.9 mm"),
+        ("output_cylinder.cap_length", "11 mm", r"cap_length must hold the port, .* at least 15\.953 mm; got 11 mm"),
+        ("output_cylinder.bleed_thread", "20 mm", r"bleed_thread must leave a wall in the cap, at most 19\.95 mm"),
+        ("output_cylinder.bush_wall", "4 mm", r"bush_wall must leave a wall in the rod-end cap, at most 3\.75 mm"),
+        ("output_cylinder.bush_wall", "0 mm", r"wiper_width must be 0 mm where there is no bush, .*; got 2 mm"),
+        ("output_cylinder.mounting_thread", "M8", r"mounting_thread must leave walls .* 7\.975 mm apart; M8 needs 10"),
+        ("port.thread", "M5", r"diameter must be below the core of actuator\.port\.thread M5, 4\.13397 mm; got 4\.5"),
         ("port.diameter", "12 mm", r"port\.diameter must leave a wall in the spigot .* at most 11\.1818 mm"),
         ("seal.groove_width", "1.7 mm", r"groove_width must hold the squeezed O-ring, at least 1\.9"),
         ("seal.groove_diameter", "14.25 mm", r"groove_diameter must be below the piston's diameter"),
@@ -204,10 +212,62 @@ def test_a_limit_that_is_named_can_be_built() -> None:
         drawn({f"{CYLINDER}cap_length": f"{least - 1e-3} mm"})
 
 
+def test_a_connectors_stud_finds_its_thread(whole: Assembly) -> None:
+    """From the cap's outside to half a millimetre before the passage, as long as the standard's stud of 8 mm."""
+    cap = whole.part("end cap, cap end")
+    assert isinstance(cap, Part)
+    bore, thread = cap.holes
+    assert (bore.diameter, thread.diameter) == pytest.approx((4.5 * MM, 8.566 * MM))
+    assert thread.thread == "G1/8 x 8"
+    assert max(cap.profile)[0] - thread.bottom == pytest.approx(8 * MM)
+    assert thread.bottom - 1.1 * 2.25 * MM == pytest.approx(0.5 * MM)
+    # The bleed screw's seat opens below the thread's bottom, its own thread begins a wall beyond the port's.
+    seat = [r for r, z in cap.profile if z > thread.z - 4.864 * MM and z < thread.z - 1.3 * 2.25 * MM]
+    assert max(seat) < thread.bottom - 0.5 * MM
+
+
+def test_mounting_holes_end_before_the_port(whole: Assembly) -> None:
+    cap = whole.part("end cap, cap end")
+    assert isinstance(cap, Part)
+    assert len(cap.axial_holes) == 4
+    for hole in cap.axial_holes:
+        assert hole.thread.startswith("M3 x 4.")
+        assert cap.holes[1].z - 4.864 * MM - hole.end >= 1 * MM - 1e-12
+        assert min(z for _, z in cap.profile) == pytest.approx(hole.start)
+
+
+def test_what_is_not_asked_for_is_not_drawn() -> None:
+    """An older specification: a plain port, no bush, no wiper, no holes."""
+    keys = (
+        "port.thread",
+        "output_cylinder.bush_wall",
+        "output_cylinder.wiper_width",
+        "output_cylinder.mounting_thread",
+    )
+    plain = drawn({f"actuator.{key}": "" for key in keys})
+    assert {part.name for part in plain.parts}.isdisjoint({"rod bush", "rod wiper"})
+    cap = plain.part("end cap, cap end")
+    assert isinstance(cap, Part)
+    assert [hole.thread for hole in cap.holes] == [""]
+    assert cap.axial_holes == ()
+    assert max(cap.profile)[0] == max(plain.part("cylinder tube").profile)[0]
+    assert interferences(plain) == ()
+
+
+def test_what_is_bought_has_a_designation(whole: Assembly) -> None:
+    bought = {part.name: part.bought for part in whole.parts if part.bought}
+    assert set(bought) == {"bleed screw", "rod bush", "rod wiper", "O-ring"}
+    assert bought["bleed screw"] == "bleed screw M6, 90 deg seat"
+    assert bought["O-ring"].startswith("O-ring AS568-013")
+    for part in whole.parts:
+        if isinstance(part, Part) and not part.bought:
+            assert part.fits, part.name
+
+
 def test_the_joint_grows_with_the_pressure() -> None:
     """Force on the cap over the spigot's surface stays at the joint's stress."""
     found = drawn({f"{CYLINDER}rated_pressure": "140 bar gauge"})
     heights = [z for _, z in found.part("end cap, rod end").profile]
-    spigot = max(heights) - min(heights) - 15 * MM
+    spigot = max(heights) - min(heights) - 16 * MM
     shear = 140e5 * math.pi / 4 * (14.3 * MM) ** 2 / (math.pi * 14.3 * MM * spigot)
     assert shear == pytest.approx(5e6)

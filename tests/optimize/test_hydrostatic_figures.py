@@ -83,7 +83,7 @@ def test_masses_are_those_of_the_parts(closed: Evaluation) -> None:
     hose = 0.25 * (0.1 + math.pi / 4 * 6.35e-3**2 * 1070)
     found = closed.performance
     assert found.output_cylinder_mass == pytest.approx(cylinder, rel=1e-12)
-    assert found.distal_mass == pytest.approx(cylinder + springs + hose + 0.17, rel=1e-9)
+    assert found.distal_mass == pytest.approx(cylinder + springs + hose + 0.15, rel=1e-9)
 
 
 def test_a_mass_that_is_given_stays() -> None:
@@ -308,7 +308,7 @@ def test_the_duty_alone_sizes_the_cylinder() -> None:
     assert found.pushing_force == pytest.approx(PUSHED, rel=1e-9)
     assert found.burst_factor == pytest.approx(start.burst_factor, rel=1e-9)
     assert found.buckling_safety == pytest.approx(3.0, rel=1e-9)
-    assert found.output_cylinder_mass < 0.65 * start.output_cylinder_mass
+    assert found.output_cylinder_mass < 0.7 * start.output_cylinder_mass
     slopes = MODELS["hydrostatic"].network(spec, tuple(changes)).gradient
     assert slopes is not None
     grows = {key for key, slope in slopes["distal_mass"].items() if slope > 0}
