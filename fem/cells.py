@@ -24,7 +24,7 @@ from fluxbore.fem.mesh import Floats, Ints
 POINTS = 2 * QUADRATURE_WEIGHTS.size
 """Quadrature points of a cell."""
 
-_WEIGHTS = np.tile(QUADRATURE_WEIGHTS, 2) / 2
+WEIGHTS = np.tile(QUADRATURE_WEIGHTS, 2) / 2
 
 # Nodes of either triangle, and the derivatives along the square by the second and the third barycentric coordinate.
 _TRIANGLES = (
@@ -44,7 +44,7 @@ def _unit_square() -> tuple[Floats, Floats, Floats]:
     return slopes[0], slopes[1], np.concatenate([QUADRATURE_POINTS @ across for across in corners])
 
 
-_ACROSS, _ALONG, _SHARE = _unit_square()
+ACROSS, ALONG, SHARE = _unit_square()
 
 
 class Cells:
@@ -57,15 +57,15 @@ class Cells:
     def __init__(self, grid: MappedMesh) -> None:
         self.grid = grid
         self.shape = grid.z_lines.size - 1, grid.r_lines.size - 1
-        self.nodes, self._mirrored = _chequered(*self.shape)
+        self.nodes, self._mirrored = chequered(*self.shape)
         lines = grid.r_nodes[::2]
         self._widths, self._heights = np.diff(lines), np.diff(grid.z_lines)
         count = self.nodes.shape[0]
         width = np.broadcast_to(self._widths, self.shape)
         self.width = np.where(self._mirrored, -width, width).reshape(count, 1)
         self.height = np.repeat(self._heights, self.shape[1])[:, None]
-        self.share = _SHARE
-        self.weight = np.abs(self.width) * self.height * _WEIGHTS
+        self.share = SHARE
+        self.weight = np.abs(self.width) * self.height * WEIGHTS
         self.region = grid.mesh.region[::2]
 
     @cached_property
@@ -73,7 +73,7 @@ class Cells:
         """(m, points) 1/r² (1/m²)."""
         lines = self.grid.r_nodes[::2]
         start = np.where(self._mirrored, lines[1:], lines[:-1]).reshape(-1, 1)
-        return np.asarray(0.5 / (start + self.width * _SHARE))
+        return np.asarray(0.5 / (start + self.width * SHARE))
 
     @cached_property
     def inverse_radius(self) -> Floats:
@@ -83,15 +83,15 @@ class Cells:
     def fields(self, values: Floats) -> tuple[Floats, Floats]:
         """What is B of ψ, of a nodal field (n,): (m, points) ∂/∂s and 1/r ∂/∂z."""
         found = values[self.nodes]
-        return found @ _ACROSS / self.width, found @ _ALONG * (self.inverse_radius / self.height)
+        return found @ ACROSS / self.width, found @ ALONG * (self.inverse_radius / self.height)
 
     def pull_across(self, factors: Floats, chosen: Ints | slice = slice(None)) -> Floats:
         """(m, 9) by a field's values at the nodes of the sum over points of factors (m, points) times its ∂/∂s."""
-        return np.asarray((factors / self.width[chosen]) @ _ACROSS.T)
+        return np.asarray((factors / self.width[chosen]) @ ACROSS.T)
 
     def pull_along(self, factors: Floats, chosen: Ints | slice = slice(None)) -> Floats:
         """(m, 9) the same of its 1/r ∂/∂z."""
-        return np.asarray((factors * (self.inverse_radius[chosen] / self.height[chosen])) @ _ALONG.T)
+        return np.asarray((factors * (self.inverse_radius[chosen] / self.height[chosen])) @ ALONG.T)
 
     def start_and_end(
         self, stretch: Floats, lever: Floats, share: Floats, chosen: Ints | slice = slice(None)
@@ -142,7 +142,7 @@ class Cells:
 
 
 @lru_cache(maxsize=16)
-def _chequered(rows: int, columns: int) -> tuple[Ints, Ints]:
+def chequered(rows: int, columns: int) -> tuple[Ints, Ints]:
     """(m, 9) nodes of the cells, and (rows, columns) which are mirrored: every other one, see `mapped_mesh`."""
     i, j = np.indices((rows, columns))
     mirrored = (i + j) % 2 == 1

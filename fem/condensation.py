@@ -81,8 +81,9 @@ class Condensation:
         return Condensed(self, values)
 
     def inverse_diagonal(self, values: Floats) -> Floats:
-        """(inner,) of D."""
-        return np.asarray(1 / values[self._diagonal])
+        """(inner,) of D; zero where D is not positive."""
+        diagonal = values[self._diagonal]
+        return np.divide(1.0, diagonal, out=np.zeros_like(diagonal), where=diagonal > 0)
 
     def band(self, values: Floats, inverse: Floats) -> Floats:
         """(kept, bandwidth + 1) the lower triangle of K − C D⁻¹ Cᵀ, by columns from the diagonal down."""

@@ -29,8 +29,8 @@ class ForceShell:
         s = np.einsum("qn,mn->mq", shape(QUADRATURE_POINTS), mesh.nodes[mesh.elements[shell], 0], optimize=True)
         self._mesh, self._shell, self._width = mesh, shell, s_outer - s_inner
         self._nodes = mesh.elements[shell]
-        self._rows = solution.system.kernel.curl[shell].reshape(shell.size, -1, 6)
-        self._weight = solution.system.kernel.weight[shell]
+        found = solution.system.kernel_of(shell)
+        self._rows, self._weight = found.curl.reshape(shell.size, -1, 6), found.weight
         # Row 1 of the kernel is ∂_z/√(2s): take the radius out again.
         self._scale = -2 * np.pi * VACUUM_RELUCTIVITY / self._width * np.sqrt(2 * s)
 
@@ -56,11 +56,15 @@ def axial_force(solution: Solution, annulus: tuple[float, float]) -> float:
     return float(axial_force_gradient(solution, annulus) @ solution.psi / 2)
 
 
-def thrust_response(solution: Solution, annulus: tuple[float, float]) -> Floats:
-    """(n,) y with K_T y = ∂F/∂ψ at the solution's state: one back-substitution serves all circuits' constants."""
+def thrust_response(solution: Solution, annulus: tuple[float, float], gradient: Floats | None = None) -> Floats:
+    """(n,) y with K_T y = ∂F/∂ψ at the solution's state: one back-substitution serves all circuits' constants.
+
+    gradient : ∂F/∂ψ, where it is known.
+    """
+    pull = axial_force_gradient(solution, annulus) if gradient is None else gradient
     found = np.zeros(solution.psi.size)
     inner = solution.system.inner
-    found[inner] = solution.tangent.solve(solution.system.topology.gather(axial_force_gradient(solution, annulus)))
+    found[inner] = solution.tangent.solve(solution.system.topology.gather(pull))
     return found
 
 

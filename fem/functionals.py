@@ -187,7 +187,8 @@ def reverse_norm(tubular: TubularSolution, exponent: float = EXPONENT) -> Functi
     if largest <= 0:
         return found
     region = mesh.region[elements]
-    weight, rows = solution.system.kernel.weight[elements], solution.system.kernel.curl[elements]
+    found_kernel = solution.system.kernel_of(elements)
+    weight, rows = found_kernel.weight, found_kernel.curl
     power = np.maximum(reverse / largest, 0.0) ** exponent
     volume, integral = float(weight.sum()), float(np.sum(weight * power))
     value = largest * (integral / volume) ** (1 / exponent)

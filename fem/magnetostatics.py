@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -20,7 +21,10 @@ from fluxbore.fem.factors import Factor
 from fluxbore.fem.linear import Corrected, Method, Tangents, factorise
 from fluxbore.fem.mesh import Floats, Ints, Mesh
 from fluxbore.fem.newton import ROUGHEST, Convergence, newton
-from fluxbore.fem.problem import MagneticMaterial, Problem, Stack
+from fluxbore.fem.problem import LinearPart, MagneticMaterial, Problem, Stack
+
+KEPT_KERNELS = 3
+"""Of groups of elements in a system, such as iron, magnets and the shell of air that forces are measured in."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,28 +42,54 @@ class System:
     Iron is a tenth of the elements, so a Newton step touches a tenth of them.
     """
 
-    def __init__(self, problem: Problem) -> None:
+    def __init__(self, problem: Problem, part: LinearPart | None = None) -> None:
+        """part : what is linear, where it is known by another way; without prescribed ψ only."""
         self.problem = problem
         mesh = problem.mesh
         self.topology = mesh.topology
         self.inner = self.topology.nodes_of_freedom
         self.pattern = self.topology.pattern
-        self.kernel: Kernel = kernel(mesh)
-        load = self._magnet_load()
+        self._kernels: dict[bytes, Kernel] = {}
+        load = self._magnet_load() if part is None else part.load.copy()
         for circuit in (*problem.circuits, *problem.sources):
             if circuit.current:
                 load += circuit.current * circuit.density
         if problem.edges is not None:
             load += problem.edges.load
-        load -= self._assemble_linear()
+        if part is None:
+            load -= self._assemble_linear()
+        else:
+            self.linear = part.values
         self.load = self.topology.gather(load)
         self._gather_iron()
+        self._state: tuple[Floats, tuple[Floats, Floats, Floats]] | None = None
+
+    @cached_property
+    def kernel(self) -> Kernel:
+        """Of all elements."""
+        return kernel(self.problem.mesh)
+
+    def kernel_of(self, elements: Ints) -> Kernel:
+        """Of some elements, without that of all where nobody has asked for it. The last few are kept: several figures
+        are of the same elements."""
+        if "kernel" in self.__dict__:
+            return Kernel(self.kernel.curl[elements], self.kernel.weight[elements])
+        code = elements.tobytes()
+        if code not in self._kernels:
+            if len(self._kernels) == KEPT_KERNELS:
+                del self._kernels[next(iter(self._kernels))]
+            self._kernels[code] = kernel(self.problem.mesh, elements)
+        return self._kernels[code]
+
+    @cached_property
+    def linear_factor(self) -> Floats:
+        """ν of the linear part times quadrature weight: (m, q), or (m, q, 2) where a material has a direction."""
+        return self._linear_factor()
 
     def _assemble_linear(self) -> Floats:
         """The linear part of the matrix; returns (n,) what the prescribed ψ pulls on through it."""
         problem = self.problem
         mesh = problem.mesh
-        self.linear_factor = self._linear_factor()
         matrices = stiffness(self.kernel.curl, self.linear_factor)
         if problem.edges is not None:
             np.add.at(matrices, problem.edges.elements, problem.edges.matrices)
@@ -71,7 +101,6 @@ class System:
         return np.asarray(np.bincount(mesh.elements.ravel(), pull.ravel(), mesh.nodes.shape[0]))
 
     def _linear_factor(self) -> Floats:
-        """ν of the linear part times quadrature weight: (m, q), or (m, q, 2) where a material has a direction."""
         mesh, materials = self.problem.mesh, self.problem.materials
         first, second = np.array([material.components for material in materials]).reshape(-1, 2).T
         # Row 0 of the kernel is B_z or −B_y, row 1 is −B_r or B_x.
@@ -100,8 +129,8 @@ class System:
             start += elements.size
         self.iron_elements = np.concatenate(order) if order else np.zeros(0, dtype=int)
         self.iron_nodes = mesh.elements[self.iron_elements]
-        self.iron_curl = self.kernel.curl[self.iron_elements]
-        self.iron_weight = self.kernel.weight[self.iron_elements]
+        found = self.kernel_of(self.iron_elements)
+        self.iron_curl, self.iron_weight = found.curl, found.weight
         for index, part in self.iron:
             stack = self.problem.materials[index].stack
             if stack is not None:
@@ -131,9 +160,17 @@ class System:
         return self.topology.spread(unknowns, self.problem.prescribed)
 
     def _iron_state(self, unknowns: Floats) -> tuple[Floats, Floats, Floats]:
-        """B (m, q, 2), ν and dν/d|B|² (m, q) in the iron's elements."""
+        """B (m, q, 2), ν and dν/d|B|² (m, q) in the iron's elements. The last one is kept: a residual and its tangent
+        ask for the same."""
+        if self._state is None or not np.array_equal(self._state[0], unknowns):
+            self._state = unknowns, self._evaluated(unknowns)
+        return self._state[1]
+
+    def _evaluated(self, unknowns: Floats) -> tuple[Floats, Floats, Floats]:
         psi = self.spread(unknowns)[self.iron_nodes]
-        field, squared = flux_density_squared(self.iron_curl, psi)
+        m, q, _, six = self.iron_curl.shape
+        field = (self.iron_curl.reshape(m, 2 * q, six) @ psi[..., None]).reshape(m, q, 2)
+        squared = field[..., 0] ** 2 + field[..., 1] ** 2
         nu, slope = np.empty_like(squared), np.empty_like(squared)
         for index, part in self.iron:
             curve = self.problem.materials[index].curve
@@ -141,12 +178,18 @@ class System:
             nu[part], slope[part] = curve.reluctivity(squared[part])
         return field, nu, slope
 
+    @cached_property
+    def _linear_matrix(self) -> Any:
+        return self.pattern.matrix(self.linear)
+
     def residual(self, unknowns: Floats) -> Floats:
         """Internal minus external load (A), one per unknown."""
-        forces = self.pattern.multiply(self.linear, unknowns) - self.load
+        forces = np.asarray(self._linear_matrix @ unknowns) - self.load
         if self.iron_elements.size:
             field, nu, _ = self._iron_state(unknowns)
-            pull = np.einsum("mqkn,mqk->mn", self.iron_curl, field * (nu * self.iron_weight)[..., None], optimize=True)
+            m, q, _, six = self.iron_curl.shape
+            strength = (field * (nu * self.iron_weight)[..., None]).reshape(m, 1, 2 * q)
+            pull = (strength @ self.iron_curl.reshape(m, 2 * q, six))[:, 0]
             nodal = np.bincount(self.iron_nodes.ravel(), pull.ravel(), self.topology.freedom.size)
             forces += self.topology.gather(np.asarray(nodal, dtype=float))
         return forces
@@ -157,7 +200,7 @@ class System:
         if self.iron_elements.size:
             field, nu, slope = self._iron_state(unknowns)
             m, q, _, six = self.iron_curl.shape
-            along = np.einsum("mqkn,mqk->mqn", self.iron_curl, field, optimize=True)
+            along = (field[:, :, None] @ self.iron_curl)[:, :, 0]
             rows = np.concatenate((self.iron_curl.reshape(m, 2 * q, six), along), axis=1)
             factor = np.concatenate((np.repeat(nu * self.iron_weight, 2, axis=1), 2 * slope * self.iron_weight), axis=1)
             matrices = rows.transpose(0, 2, 1) @ (rows * factor[..., None])
@@ -205,20 +248,26 @@ class Solution:
 
     def flux_density(self, elements: Ints | None = None) -> Floats:
         """(m, q, 2) B in the kernel's frame, at the quadrature points of all or of some elements."""
-        chosen = slice(None) if elements is None else elements
-        field, _ = flux_density_squared(self.system.kernel.curl[chosen], self.psi[self.problem.mesh.elements[chosen]])
+        connectivity = self.problem.mesh.elements
+        if elements is None:
+            field, _ = flux_density_squared(self.system.kernel.curl, self.psi[connectivity])
+        else:
+            field, _ = flux_density_squared(self.system.kernel_of(elements).curl, self.psi[connectivity[elements]])
         return field
 
 
-def solve(problem: Problem, settings: Settings | None = None, start: Floats | None = None) -> Solution:
+def solve(
+    problem: Problem, settings: Settings | None = None, start: Floats | None = None, part: LinearPart | None = None
+) -> Solution:
     """Solve a magnetostatic problem.
 
     start : (n,) nodal ψ to begin from, such as a neighbouring position's on the same topology; zero without it.
+    part : the linear part, where it is known.
 
     A failure to converge is in the solution's ``convergence``.
     """
     settings = settings or Settings()
-    system = System(problem)
+    system = System(problem, part)
     first = np.zeros(system.inner.size) if start is None else start[system.inner]
     unknowns, convergence, factor = newton(
         system.residual,

@@ -18,6 +18,9 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int_]
 
 
+KEPT_GATHERS = 4
+
+
 @dataclass(frozen=True, eq=False)
 class Gather:
     """How entries of some elements' matrices are summed into the lower triangle.
@@ -93,7 +96,20 @@ class Pattern:
         return self.gather.assemble(matrices)
 
     def subset_assembler(self, elements: Ints) -> Gather:
-        """Sums the matrices (len(elements), k, k) of some elements only."""
+        """Sums the matrices (len(elements), k, k) of some elements only. The last few are kept: positions and designs
+        of a topology ask for the same."""
+        code = elements.tobytes()
+        if code not in self._gathers:
+            if len(self._gathers) == KEPT_GATHERS:
+                del self._gathers[next(iter(self._gathers))]
+            self._gathers[code] = self._gather_of(elements)
+        return self._gathers[code]
+
+    @cached_property
+    def _gathers(self) -> dict[bytes, Gather]:
+        return {}
+
+    def _gather_of(self, elements: Ints) -> Gather:
         count, k = self.freedom.shape
         block = k * k
         place = np.full(count, -1)

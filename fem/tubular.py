@@ -11,13 +11,14 @@ import numpy as np
 from fluxbore.design.materials import PermanentMagnet
 from fluxbore.fem.asymptotic import open_edges
 from fluxbore.fem.field import along_radius
-from fluxbore.fem.force import axial_force, incremental_thrust, thrust_response
+from fluxbore.fem.force import axial_force_gradient, incremental_thrust, thrust_response
 from fluxbore.fem.linkage import Cut, circuits, cuts, flux_linkages, synchronous_inductance
 from fluxbore.fem.magnetostatics import Settings, Solution, solve
 from fluxbore.fem.mapped import MappedMesh, Subdivision, mapped_mesh
 from fluxbore.fem.mesh import Floats, Ints
 from fluxbore.fem.newton import Convergence
 from fluxbore.fem.problem import MagneticMaterial, Problem
+from fluxbore.fem.rectangles import linear_part
 from fluxbore.fem.reluctivity import VACUUM_RELUCTIVITY, reluctivity_curve
 from fluxbore.geometry.cross_section import CrossSection, Region
 
@@ -64,9 +65,19 @@ class TubularSolution:
         return self.solution.convergence
 
     @cached_property
+    def pull(self) -> Floats:
+        """(n,) ∂F/∂ψ of the axial force F = ½ ψ·∂F/∂ψ."""
+        return axial_force_gradient(self.solution, self.section.force_annulus)
+
+    @cached_property
     def response(self) -> Floats:
         """(n,) K_T⁻¹ ∂F/∂ψ of the axial force: what thrust constants and their gradients begin with."""
-        return thrust_response(self.solution, self.section.force_annulus)
+        return thrust_response(self.solution, self.section.force_annulus, self.pull)
+
+    @cached_property
+    def reverse(self) -> list[tuple[int, Ints, Floats]]:
+        """See `reverse_fields`."""
+        return _reverse_fields(self.solution)
 
     def thrust_constants(self) -> Floats:
         """(3,) incremental thrust per ampere in each phase (N/A), by the stress tensor."""
@@ -74,7 +85,7 @@ class TubularSolution:
 
     def cogging_force(self) -> float:
         """Axial force on the mover at no current (N)."""
-        return axial_force(self.solution, self.section.force_annulus)
+        return float(self.pull @ self.solution.psi / 2)
 
     def flux_linkages(self) -> Floats:
         """(3,) of the phases at no current (Wb)."""
@@ -148,7 +159,10 @@ def _solved(
         for circuit in circuits(grid.mesh, section.coils, windows)
     )
     problem = Problem(grid.mesh, materials, coils, edges=open_edges(grid, section.ends))
-    return TubularSolution(position, section, grid, solve(problem, settings, start), windows)
+    # SuperLU is the plain way in all: general assembly, general factorisation.
+    plain = settings is not None and settings.method != "banded"
+    part = None if plain else linear_part(grid, materials, problem.edges)
+    return TubularSolution(position, section, grid, solve(problem, settings, start, part), windows)
 
 
 def _predicted(before: Sequence[TubularSolution], position: float, grid: MappedMesh) -> Floats | None:
@@ -207,10 +221,14 @@ def shell_flux_density(tubular: TubularSolution, radius: float, z_range: tuple[f
 def reverse_fields(tubular: TubularSolution) -> list[tuple[int, Ints, Floats]]:
     """Of each magnet its region, its elements (m,) and the field against its magnetisation (A/m) at their quadrature
     points (m, q)."""
-    solution = tubular.solution
+    return tubular.reverse
+
+
+def _reverse_fields(solution: Solution) -> list[tuple[int, Ints, Floats]]:
     remanences = [material.remanence[1] for material in solution.problem.materials]
     region = solution.problem.mesh.region
-    all_magnets = np.flatnonzero(np.array(remanences)[region] != 0)
+    # By magnet, as those who put them together again have them.
+    all_magnets = np.concatenate([np.flatnonzero(region == k) for k in np.flatnonzero(remanences)] or [region[:0]])
     b_z = solution.flux_density(all_magnets)[..., 0]
     found = []
     for index in np.flatnonzero(remanences):
@@ -223,20 +241,25 @@ def reverse_fields(tubular: TubularSolution) -> list[tuple[int, Ints, Floats]]:
 
 def demagnetised_fraction(tubular: TubularSolution, intrinsic_coercivity: float) -> float:
     """Share of the magnets' volume in which the field against the magnetisation exceeds the coercivity (A/m)."""
-    volume = beyond = 0.0
-    for _, elements, reverse in reverse_fields(tubular):
-        weight = tubular.solution.system.kernel.weight[elements]
-        volume += float(weight.sum())
-        beyond += float(weight[reverse > intrinsic_coercivity].sum())
+    weight, reverse = _magnets(tubular)
+    volume, beyond = float(weight.sum()), float(weight[reverse > intrinsic_coercivity].sum())
     return beyond / volume if volume else 0.0
+
+
+def _magnets(tubular: TubularSolution) -> tuple[Floats, Floats]:
+    """(m, q) twice: quadrature weights (m³) and the field against the magnetisation (A/m) in all magnets."""
+    fields = reverse_fields(tubular)
+    if not fields:
+        return np.zeros((0, 1)), np.zeros((0, 1))
+    elements = np.concatenate([own for _, own, _ in fields])
+    return tubular.solution.system.kernel_of(elements).weight, np.concatenate([field for _, _, field in fields])
 
 
 def mean_reverse_field(tubular: TubularSolution, exponent: float) -> float:
     """(mean of h^p over the magnets' volume)^(1/p) (A/m) of the field h >= 0 against the magnetisation."""
-    fields = [(tubular.solution.system.kernel.weight[m], np.maximum(h, 0.0)) for _, m, h in reverse_fields(tubular)]
-    largest = max((float(reverse.max()) for _, reverse in fields), default=0.0)
+    weight, reverse = _magnets(tubular)
+    largest = float(reverse.max(initial=0.0))
     if largest == 0.0:
         return 0.0
-    integral = sum(float(np.sum(weight * (reverse / largest) ** exponent)) for weight, reverse in fields)
-    volume = sum(float(weight.sum()) for weight, _ in fields)
-    return float(largest * (integral / volume) ** (1 / exponent))
+    integral = float(np.sum(weight * (np.maximum(reverse, 0.0) / largest) ** exponent))
+    return float(largest * (integral / float(weight.sum())) ** (1 / exponent))
