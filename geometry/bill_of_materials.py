@@ -27,6 +27,9 @@ HEAD = (
     "pieces",
     "mass each (kg)",
     "mass total (kg)",
+    "centre of gravity above the lower end (mm)",
+    "moment of inertia about the axis (kg mm2)",
+    "moment of inertia across the axis (kg mm2)",
     "make or buy",
     "designation",
     "note",
@@ -45,7 +48,8 @@ def bill_of_materials(assembly: Assembly, items: Sequence[Item]) -> str:
         writer.writerow(_row(item, assembly.title.revision))
     if assembly.carried_mass > 0:
         mass = _mass(assembly.carried_mass)
-        writer.writerow(("", "", "", "", CARRIED, "mover", "", "", 1, mass, mass, "", "", "no part of its own"))
+        blank = ("",) * 5
+        writer.writerow(("", "", "", "", CARRIED, "mover", "", "", 1, mass, mass, *blank, "no part of its own"))
     return stream.getvalue()
 
 
@@ -72,10 +76,21 @@ def _row(item: Item, revision: str) -> tuple[object, ...]:
         item.count,
         _mass(item.mass),
         _mass(item.mass * item.count),
+        *_inertia(item),
         item.source,
         one_line(part.bought),
         one_line(item_note(item)),
     )
+
+
+def _inertia(item: Item) -> tuple[str, ...]:
+    """Of one piece, about axes through its centre of gravity; across, the greater of both."""
+    if not item.mass:
+        return "", "", ""
+    found = item.inertia
+    above = found.centre[2] - min(z for _, z in item.part.profile)
+    across = max(found.tensor[0, 0], found.tensor[1, 1])
+    return tuple(f"{value:.7g}" for value in (above * 1e3, found.tensor[2, 2] * 1e6, across * 1e6))
 
 
 def _mass(mass: float) -> str:

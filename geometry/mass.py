@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from fluxbore.design.materials import Material
 from fluxbore.geometry.assembly import Assembly
+from fluxbore.geometry.inertia import Inertia, combined, of_mass
 from fluxbore.geometry.part import Body, volume
 
 
@@ -17,6 +18,11 @@ class PartMass:
     part: Body
     volume: float
     mass: float
+
+    @property
+    def inertia(self) -> Inertia:
+        """With the centre of gravity, where the part stands; made when it is asked for, which few are."""
+        return of_mass(self.part, self.mass)
 
 
 def part_masses(assembly: Assembly, materials: Mapping[str, Material]) -> tuple[PartMass, ...]:
@@ -32,6 +38,11 @@ def _weighed(part: Body, materials: Mapping[str, Material]) -> PartMass:
 def total(rows: tuple[PartMass, ...], group: str | None = None) -> float:
     """Mass (kg) of all parts, or of the "mover" or the "stator" alone."""
     return sum(row.mass for row in rows if group is None or row.part.group == group)
+
+
+def inertia_of(rows: tuple[PartMass, ...], group: str | None = None) -> Inertia:
+    """Of all parts together, or of the "mover" or the "stator" alone; what has no mass does not count."""
+    return combined(row.inertia for row in rows if group is None or row.part.group == group)
 
 
 def envelope(assembly: Assembly) -> tuple[float, float]:

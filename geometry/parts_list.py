@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from fluxbore.design.materials import Material
 from fluxbore.geometry.assembly import Assembly
 from fluxbore.geometry.helical_part import HelicalPart
+from fluxbore.geometry.inertia import Inertia, of_mass
 from fluxbore.geometry.mass import PartMass, part_masses
 from fluxbore.geometry.part import Body
 
@@ -34,6 +35,11 @@ class Item:
     def part(self) -> Body:
         """The first piece, which stands for all."""
         return self.parts[0]
+
+    @property
+    def inertia(self) -> Inertia:
+        """Of the first piece where it stands, its centre of gravity with it; made when it is asked for."""
+        return of_mass(self.part, self.mass)
 
     @property
     def count(self) -> int:

@@ -13,7 +13,8 @@ from fluxbore.geometry import unrolled
 from fluxbore.geometry.assembly import Assembly
 from fluxbore.geometry.file_names import unlike
 from fluxbore.geometry.helical_part import HelicalPart
-from fluxbore.geometry.mass import part_masses, total
+from fluxbore.geometry.inertia import Inertia, of_mass
+from fluxbore.geometry.mass import inertia_of, part_masses, total
 from fluxbore.geometry.part import Body, Colour, Part, centre_of_mass
 from fluxbore.geometry.parts_list import Item
 from fluxbore.geometry.placement import Placement, placement
@@ -23,7 +24,7 @@ Value = str | float
 
 @dataclass(frozen=True, slots=True)
 class Property:
-    """value : a text, or a number in this unit, "kg", "mm" or "" for a plain one."""
+    """value : a text, or a number in this unit, "kg", "mm", "kg mm^2" or "" for a plain one."""
 
     name: str
     value: Value
@@ -139,7 +140,7 @@ def tree(assembly: Assembly, catalogue: Catalogue) -> Tree:
             f"{title.part_number}-{name.upper()}",
             _unlike_any(name, names),
             title.revision,
-            properties=(Property("mass", total(rows, name), "kg"), *extra),
+            properties=(Property("mass", total(rows, name), "kg"), *extra, *_inertia(inertia_of(rows, name))),
         )
         pieces = tuple(catalogue.piece(part) for part in assembly.parts if part.group == name)
         groups.append((product, pieces))
@@ -153,9 +154,25 @@ def tree(assembly: Assembly, catalogue: Catalogue) -> Tree:
             Property("mass", total(rows), "kg"),
             Property("drawing number", title.drawing_number),
             Property("position of the mover", assembly.position * 1e3, "mm"),
+            *_inertia(inertia_of(rows)),
         ),
     )
     return Tree(root, tuple(groups))
+
+
+def _inertia(found: Inertia, centre: bool = True) -> tuple[Property, ...]:
+    """About axes through the centre of gravity, which is told where validation properties do not."""
+    if not found.mass:
+        return ()
+    place = zip("xyz", found.centre * 1e3, strict=True) if centre else ()
+    return (
+        *(Property(f"centre of gravity {axis}", float(value), "mm") for axis, value in place),
+        *(
+            Property(f"moment of inertia {'xyz'[i]}{'xyz'[j]}", float(found.tensor[i, j]) * 1e6, "kg mm^2")
+            for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
+            if i == j or abs(found.tensor[i, j]) > 1e-9 * found.tensor[i, i]
+        ),
+    )
 
 
 def own_frame(part: Body) -> tuple[Body, Placement]:
@@ -193,7 +210,7 @@ def _properties(item: Item, shape: Body) -> tuple[Property, ...]:
     if shape.bought:
         found.append(Property("designation", shape.bought))
     if shape.material:
-        found.append(Property("mass", item.mass, "kg"))
+        found += [Property("mass", item.mass, "kg"), *_inertia(of_mass(shape, item.mass), centre=False)]
     if shape.fill != 1.0:
         found.append(Property("share of the volume that is the material", shape.fill))
     if not isinstance(shape, HelicalPart):

@@ -88,7 +88,7 @@ class _Units:
         if name in ("mm", "m"):
             prefix = ".MILLI." if name == "mm" else "$"
             return f"( LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT({prefix},.METRE.) )"
-        powers = {"mm^3": (("mm", 3),), "kg/m^3": (("kg", 1), ("m", -3))}[name]
+        powers = {"mm^3": (("mm", 3),), "kg/m^3": (("kg", 1), ("m", -3)), "kg mm^2": (("kg", 1), ("mm", 2))}[name]
         elements = [self._instances.add(f"DERIVED_UNIT_ELEMENT({self(base)},{power}.)") for base, power in powers]
         return f"DERIVED_UNIT({aggregate(elements)})"
 
@@ -124,7 +124,7 @@ class _Writer:
         if isinstance(one.value, str):
             item = self.instances.add(f"DESCRIPTIVE_REPRESENTATION_ITEM({word(one.name)},{word(one.value)})")
         elif one.unit:
-            kind = {"kg": "MASS_MEASURE", "mm": "LENGTH_MEASURE"}[one.unit]
+            kind = {"kg": "MASS_MEASURE", "mm": "LENGTH_MEASURE", "kg mm^2": "NUMERIC_MEASURE"}[one.unit]
             item = self._measure(one.name, kind, one.value, one.unit)
         else:
             item = self.instances.add(f"REAL_REPRESENTATION_ITEM({word(one.name)},{number(one.value)})")

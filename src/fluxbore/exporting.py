@@ -121,7 +121,7 @@ def _three_mf(job: Job) -> Contents:
 
 FORMATS: dict[str, Format] = {
     "step": Format("STEP files of the whole at three places of its stroke, and of every part", _step),
-    "bom": Format("bill of materials as CSV", _bom),
+    "bom": Format("bill of materials as CSV", _bom, parts=False),
     "dxf": Format("section as DXF", _dxf),
     "fem": Format("FEMM model of the field", _fem, lambda spec: actuator_of(spec).femm_model is not None, parts=False),
     "glb": Format("the whole as GLB, in metres, for viewers", _glb),
