@@ -85,7 +85,7 @@ def test_random_cylinders_are_drawn_right_or_refused() -> None:
 
 
 def test_step_files_come_back_whole_named_and_as_heavy(tmp_path: Path) -> None:
-    spec = load(PREHYDRA)
+    spec = load(PREHYDRA, {CYLINDER + "material": "brass"})  # one of the program's own
     whole = assembly_of(spec)
     files = write_step(whole, tmp_path / "cad")
     assert len(files) == 1 + len(parts_list(whole, spec.materials))
