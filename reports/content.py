@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +22,9 @@ from fluxbore.optimize.tolerance_result import RobustResult, ToleranceResult
 from fluxbore.reports.hydrostatic_content import HydraulicsContent
 from fluxbore.reports.kind_words import PLAIN, KindWords
 from fluxbore.reports.lead_screw_content import ScrewContent
+
+if TYPE_CHECKING:
+    from fluxbore.fem.field_loads import Load
 
 Array = NDArray[np.float64]
 Triangles = NDArray[np.int_]
@@ -38,6 +42,7 @@ class FluxMap:
     position : of the mover (m).
     region : (m,) number of the material region of each triangle; with it field lines are drawn smooth within each.
     components : (m, 2) B_r, B_z (T) in the triangles, for the pointer to read; None where there is nothing to read.
+    loads : of iron and magnets in this field, against what their materials bear.
     """
 
     r: Array
@@ -49,6 +54,7 @@ class FluxMap:
     position: float
     region: Triangles | None = None
     components: Array | None = None
+    loads: tuple[Load, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,7 +62,8 @@ class PartRow:
     """One line of the parts list; parts of the same shape and name share a line by their ``count``.
 
     size : the part's main dimensions in words, for people. volume (m^3) and mass (kg) are of one piece. source :
-    "make" or "buy", with the ``designation`` that it is ordered by; what is drawn by nobody has no number.
+    "make" or "buy", with the ``designation`` that it is ordered by; what is drawn by nobody has no number,
+    neither of its own nor on the list.
     """
 
     name: str
@@ -69,6 +76,7 @@ class PartRow:
     part_number: str = ""
     source: str = ""
     designation: str = ""
+    number: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,7 +113,7 @@ class ReportContent:
         own checks are shown.
     one_at_a_time : the best of each variable's own sweep put together, evaluated.
     slots : the slotted-slotless comparison by the network.
-    assembly : the design's parts where they stand; drawn in section.
+    assembly : the design's parts where they stand; drawn in section. model : the same as GLB, for the live view.
     checked, not_checked : sentences; what the page itself can see (residuals, the two routes) it adds.
     provenance : label -> text: versions, hashes, date, mesh, command.
     seconds : wall time of the whole run.
@@ -131,6 +139,7 @@ class ReportContent:
     parts: tuple[PartRow, ...] = ()
     assembly: Assembly | None = None
     picture: Picture | None = None
+    model: bytes | None = None
     checked: tuple[str, ...] = ()
     not_checked: tuple[str, ...] = ()
     provenance: Mapping[str, str] = field(default_factory=dict)

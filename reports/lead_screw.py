@@ -8,7 +8,7 @@ from fluxbore.design.force_series import ForceSeries
 from fluxbore.design.performance import Performance
 from fluxbore.design.spec import Spec
 from fluxbore.optimize.evaluation import Evaluation
-from fluxbore.reports import helical_picture, lead_screw_curves, lead_screw_pitch
+from fluxbore.reports import helical_picture, lead_screw_curves, lead_screw_pitch, load_tables
 from fluxbore.reports.lead_screw_content import ScrewContent
 from fluxbore.reports.tables import Cell, Table
 from fluxbore.reports.wording import capital, change, figure_scale, millimetres, scale, significant
@@ -35,6 +35,7 @@ def section(content: ScrewContent, spec: Spec, design: Evaluation) -> dict[str, 
         "back_driving": back_driving(content, spec.number("operating_point.friction_torque"), load),
         "stroke": stroke(content, load),
         "field": helical_picture.field_picture(content),
+        "loads": load_tables.section(content.loads, "where the screw slips"),
         "arcs": ARCS if any(getattr(content.screw, member).arcs for member in MEMBERS) else "",
         "pitch": lead_screw_curves.pitch_curves(content.pitch) if content.pitch is not None else None,
         "pitch_text": lead_screw_pitch.sentences(content.pitch) if content.pitch is not None else (),

@@ -11,6 +11,7 @@ from fluxbore.design.lead_screw import LeadScrew
 from fluxbore.optimize.pitch_curve import PitchCurve
 
 if TYPE_CHECKING:
+    from fluxbore.fem.field_loads import Load
     from fluxbore.reports.content import FluxMap
 
 
@@ -33,7 +34,8 @@ class ScrewContent:
     active length exceeds that at rest when it is half a pitch away. rest, stall : maps over two pitches, `z` being ζ
     and `position` the displacement. positions, engaged : of the mover, from the middle, and the stall force that is
     left there. stroke : between the mover's ends. iron : cases of back iron for the stall force `iron_force`.
-    pitch : the same design with other pitches; None where it has no figures.
+    pitch : the same design with other pitches; None where it has no figures. loads : of iron and magnets where the
+    screw slips.
     """
 
     screw: LeadScrew
@@ -50,6 +52,7 @@ class ScrewContent:
     iron: tuple[BackIronCase, ...]
     iron_force: float
     pitch: PitchCurve | None
+    loads: tuple[Load, ...] = ()
 
     def rest_under(self, load: float) -> float | None:
         """Where the spring rests (m) under a load (N); None where the screw slips."""

@@ -20,6 +20,7 @@ from fluxbore.reports import (
     front,
     hydrostatic,
     lead_screw,
+    load_tables,
     optimum,
     parallel,
     section_drawing,
@@ -36,6 +37,7 @@ from fluxbore.reports.key_labels import FRAGMENTS
 from fluxbore.reports.scripts import Data, Script, load
 from fluxbore.reports.svg import Drawing
 from fluxbore.reports.template import fill
+from fluxbore.reports.viewer import viewer
 from fluxbore.reports.wording import capital, duration, greek, key_label, symbol
 
 
@@ -54,16 +56,17 @@ def write_report(content: ReportContent, path: Path) -> Path:
 def render(content: ReportContent) -> str:
     """The page as text."""
     table = design_table(content)
-    return fill("report.html", *_scripts(table), **_context(content, _designs(table)))
+    return fill("report.html", *_scripts(content, table), **_context(content, _designs(table)))
 
 
-def _scripts(table: DesignTable | None) -> tuple[tuple[Script, ...], tuple[Data, ...]]:
+def _scripts(content: ReportContent, table: DesignTable | None) -> tuple[tuple[Script, ...], tuple[Data, ...]]:
     """The scripts of this page, in the order in which they run, and what they read."""
     names, data = ["page.js", "curves.js", "flux.js"], []
     if table is not None:
         names.append("brush.js")
         data.append(Data("designs-data", page_data(table)))
-    return load(*names), tuple(data)
+    scripts, model = viewer(content)
+    return load(*names) + scripts, (*data, *model)
 
 
 def _designs(table: DesignTable | None) -> dict[str, Any] | None:
@@ -250,7 +253,9 @@ def _field(content: ReportContent) -> dict[str, Any] | None:
         title = "Chosen" if content.is_study else "Design"
         near.append(flux_picture.close_up(chosen, content.design_spec, limit, step, "flux-chosen", title))
     between = flux_picture.flux_between(step)
-    return {"strip": flux_picture.machine_strip(main, limit, step), "near": near, "between": between}
+    strip = flux_picture.machine_strip(main, limit, step)
+    loads = load_tables.section(main.loads, f"at no current, mover at {main.position * 1e3:.4g}\u00a0mm")
+    return {"strip": strip, "near": near, "between": between, "loads": loads}
 
 
 def _force(content: ReportContent) -> tuple[Drawing | None, ...]:

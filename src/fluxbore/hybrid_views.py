@@ -29,7 +29,9 @@ def flux_map(spec: Spec) -> FluxMap | None:
     import numpy as np
 
     from fluxbore.fem.field import flux_map as field_map
+    from fluxbore.fem.field_loads import tubular_loads
     from fluxbore.fem.threads import one_thread
+    from fluxbore.optimize.hybrid_field import intrinsic_coercivity
     from fluxbore.optimize.hybrid_figures import solve_window
     from fluxbore.reports.content import FluxMap
 
@@ -53,6 +55,7 @@ def flux_map(spec: Spec) -> FluxMap | None:
         position,
         field.region,
         field.components,
+        tubular_loads(solved, intrinsic_coercivity(spec)),
     )
 
 

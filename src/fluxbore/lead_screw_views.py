@@ -14,7 +14,9 @@ from fluxbore.optimize.evaluation import Evaluation
 if TYPE_CHECKING:
     from fluxbore.design.back_iron import BackIronCase
     from fluxbore.design.lead_screw import LeadScrew
+    from fluxbore.fem.field_loads import Load
     from fluxbore.fem.helical import HelicalSolution
+    from fluxbore.optimize.lead_screw_field import LeadScrewField
     from fluxbore.reports.content import Array, FluxMap
     from fluxbore.reports.lead_screw_content import ScrewContent
 
@@ -68,6 +70,7 @@ def screw_content(spec: Spec, design: Evaluation) -> ScrewContent | None:
         finer = int(spec.number("solver.mesh_refinement")) + 1  # so that field lines are smooth to the eye
         rest, stall = (_flux_map(solve(section(spec, screw, place), finer), screw) for place in (0.0, top))
         pitch = pitch_curve(spec, design)
+        loads = _loads(spec, screw, field)
     stroke = spec.actuator.stroke
     reach = max(stroke, screw.translator_length + screw.active_length) / 2  # beyond it nothing is engaged
     positions = np.linspace(-reach, reach, SAMPLES)
@@ -87,7 +90,23 @@ def screw_content(spec: Spec, design: Evaluation) -> ScrewContent | None:
         _iron_cases(screw, asked),
         asked,
         pitch,
+        loads,
     )
+
+
+def _loads(spec: Spec, screw: LeadScrew, field: LeadScrewField) -> tuple[Load, ...]:
+    """Where the screw slips, which is the worst for the magnets; none of arcs, of which only the mean is computed."""
+    from fluxbore.fem.field_loads import screw_loads
+    from fluxbore.optimize.lead_screw_field import coercivity
+
+    if field.slipping is None or screw.translator.arcs is not None or screw.rotor.arcs is not None:
+        return ()
+    names = [layer.name for layer in field.slipping.section.layers]
+    limits = {
+        names.index(f"{member} magnets"): (spec.word(f"actuator.{member}.magnet"), coercivity(spec, member))
+        for member in ("translator", "rotor")
+    }
+    return screw_loads(field.slipping, limits)
 
 
 def _iron_cases(screw: LeadScrew, stall_force: float) -> tuple[BackIronCase, ...]:
