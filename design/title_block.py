@@ -23,6 +23,7 @@ DRAWING_KEYS: tuple[Key, ...] = (
     _word("organisation", "whose drawing it is"),
     _word("approver", "who releases parts and drawings"),
     _word("general_tolerance", "of sizes without a tolerance of their own", "ISO 2768-mK"),
+    _word("surface", "roughness of surfaces without a mark of their own", "Ra 3.2, toleranced sizes Ra 0.8 (assumed)"),
 )
 """Keys of section ``[drawing]``, the same for every kind of actuator; no figure depends on them."""
 
@@ -39,6 +40,7 @@ class TitleBlock:
     organisation: str = ""
     general_tolerance: str = "ISO 2768-mK"
     approver: str = ""
+    surface: str = ""
 
     def number_of(self, item: int) -> str:
         """The part number of an item of the parts list."""
@@ -67,4 +69,5 @@ def title_block(values: Values) -> TitleBlock:
         word("organisation"),
         word("general_tolerance"),
         word("approver"),
+        word("surface"),
     )

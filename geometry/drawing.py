@@ -1,142 +1,180 @@
-"""An assembly's longitudinal section as a DXF file (R2010, millimetres, 1:1): outlines, hatch, dimensions, parts list.
+"""The drawing of an assembly: its longitudinal section with dimensions, numbers at the parts, parts list and details.
 
-Layers, so that a reader can hide what is in the way:
+Layers, so that a reader of the DXF file can hide what is in the way:
 
     OUTLINE what the plane cuts   EDGES seen behind it       HIDDEN drillings beside it   CENTRE the axis
     HATCH                         DIMENSIONS with DIMENSION entities, each told by its name in extended data
-    TEXT parts list and title     SHEET their lines
+    TEXT notes and tables         SHEET their lines          FRAME of the sheet
 
-Solid bars (rods, shafts) are not hatched, as ISO 128-3 has it; sections too narrow for a hatch are filled. Text grows
-with the assembly, so that all of the sheet can be read at once. ezdxf is imported inside the functions.
+Solid bars (rods, shafts) are not hatched, as ISO 128-3 has it; sections too narrow for a hatch are filled. The scale is
+the largest of ISO 5455 at which all of it finds room on A3.
 """
 
 from __future__ import annotations
 
-import io
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
-from fluxbore.design.errors import MissingLibraryError
+from fluxbore.design.errors import DesignError
 from fluxbore.design.materials import Material
+from fluxbore.design.units import format_quantity
+from fluxbore.geometry import sheet_dxf
 from fluxbore.geometry.assembly import Assembly
-from fluxbore.geometry.drawing_detail import add_detail
-from fluxbore.geometry.drawing_lines import APPLICATION, MM, add_dimension, add_hatch, in_mm
-from fluxbore.geometry.drawing_sheet import add_sheet, program
+from fluxbore.geometry.drawing_detail import detail_view
+from fluxbore.geometry.drawing_list import balloons, list_pages, parts_table
 from fluxbore.geometry.measure import Measure, overall
-from fluxbore.geometry.part import Body
-from fluxbore.geometry.section import face, rims_beside, seen_behind
+from fluxbore.geometry.parts_list import Item as Line
+from fluxbore.geometry.parts_list import parts_list
+from fluxbore.geometry.sheet import Dimension, Item, Sheet, bounds, moved
+from fluxbore.geometry.sheet_dimension import ROW, apart, linear
+from fluxbore.geometry.sheet_frame import SCALES, TITLE_HEIGHT, TITLE_WIDTH, TitleWords, frame, inner, notes
+from fluxbore.geometry.sheet_view import MM, Section, on_paper, section_of, section_view
 
-TEXT_SHARE = 1 / 110
-"""Height of the text over the longest side of the assembly: 2.5 mm on 275 mm."""
+SIZE = "A3"
 
-LAYERS = {
-    "OUTLINE": (7, "Continuous", 50),
-    "EDGES": (7, "Continuous", 25),
-    "HIDDEN": (8, "DASHED", 18),
-    "CENTRE": (1, "CENTER", 18),
-    "HATCH": (8, "Continuous", 13),
-    "DIMENSIONS": (5, "Continuous", 18),
-    "TEXT": (7, "Continuous", 25),
-    "SHEET": (7, "Continuous", 25),
-}
-"""Colour index, line type and line weight (1/100 mm)."""
+CLEAR = 4.0
+"""mm between the drawing and what is around it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Page:
+    """Where a sheet stands in its set, from 1."""
+
+    number: int = 1
+    of: int = 1
+
+    def __str__(self) -> str:
+        return f"{self.number} of {self.of}"
 
 
 def dxf_text(assembly: Assembly, materials: Mapping[str, Material]) -> str:
-    """The whole file. Raises MissingLibraryError where ezdxf is missing."""
-    document = dxf_document(assembly, materials)
-    stream = io.StringIO()
-    document.write(stream)
-    # A comment, which readers skip: whose the file is.
-    return f"999\n{program()}\n{stream.getvalue()}"
+    """The whole drawing as a DXF file's text. Raises MissingLibraryError where ezdxf is missing."""
+    return sheet_dxf.dxf_text(assembly_sheet(assembly, parts_list(assembly, materials)))
 
 
 def dxf_document(assembly: Assembly, materials: Mapping[str, Material]) -> Any:
     """The same as a document of ezdxf's."""
-    ezdxf = _load_ezdxf()
-    low, high, reach = _extent(assembly)
-    size = max(high - low, 2 * reach) * MM * TEXT_SHARE
-    document = ezdxf.new("R2010", setup=["linetypes"], units=ezdxf.units.MM)
-    document.header["$LTSCALE"] = 2 * size
-    document.appids.new(APPLICATION)
-    for name, (colour, linetype, weight) in LAYERS.items():
-        document.layers.add(name, color=colour, linetype=linetype, lineweight=weight)
-    _add_style(document, size)
-    space = document.modelspace()
-    for number, part in enumerate(assembly.parts):
-        _add_part(space, part, number, size)
-    for line in seen_behind(assembly):
-        space.add_lwpolyline(in_mm(line), dxfattribs={"layer": "EDGES"})
-    for rim in rims_beside(assembly):
-        (z, y), along, across = rim.centre, rim.along, max(rim.across, 1e-6 * rim.along)
-        major, ratio = ((along, 0.0), across / along) if along >= across else ((0.0, across), along / across)
-        space.add_ellipse((z * MM, y * MM), (major[0] * MM, major[1] * MM), ratio, dxfattribs={"layer": "HIDDEN"})
-    space.add_line((low * MM - 3 * size, 0), (high * MM + 3 * size, 0), dxfattribs={"layer": "CENTRE"})
-    measures = assembly.measures or overall(assembly.parts, 3.5 * size / MM)
-    for measure in measures:
-        _add_measure(space, measure, reach * MM, size)
-    rows = [measure.place for measure in measures if not measure.across]
-    above, below = (reach * MM + (3 * max(side * row for row in (0, *rows)) + 5) * size for side in (-1, 1))
-    right = high * MM + 8 * size
-    for detail in assembly.details:
-        right = add_detail(space, assembly, detail, (right, -below), size)
-    add_sheet(space, assembly, materials, (above, -below), size)
-    document.set_modelspace_vport(
-        height=1.2 * max(high - low, 4 * reach) * MM, center=((low + high) / 2 * MM, -reach * MM)
+    return sheet_dxf.dxf_document(assembly_sheet(assembly, parts_list(assembly, materials)))
+
+
+def assembly_sheet(assembly: Assembly, items: Sequence[Line], page: Page | None = None) -> Sheet:
+    """The sheet. items : the assembly's own parts list. Raises DesignError where no scale is small enough."""
+    left, low, right, high = inner(SIZE)
+    table, elsewhere = parts_table(items, (left, low, right, high))
+    block = assembly.title
+    words = TitleWords(
+        f"{assembly.name}, assembly",
+        block.part_number,
+        block.drawing_number,
+        "see the parts list",
+        format_quantity(sum(item.mass * item.count for item in items), "mass", 4),
+        str(page or Page()),
     )
-    return document
+    remarks = [*_remarks(assembly), *(["Parts list: see the next sheet."] if elsewhere else [])]
+    around = [*table, *notes(remarks, (left + 2, low + 2), right - left - TITLE_WIDTH - 4)]
+    floor = max(bounds(around)[3], low + TITLE_HEIGHT) + CLEAR
+    room = (right - left - 2 * CLEAR, high - floor - CLEAR)
+    section = section_of(assembly)
+    for scale in SCALES:
+        drawn = [*_views(assembly, section, scale), *balloons(section, items, _top(assembly, scale), scale)]
+        drawn = _with_details(assembly, section, drawn, scale)
+        x0, y0, x1, y1 = bounds(drawn)
+        if x1 - x0 <= room[0] and y1 - y0 <= room[1]:
+            break
+    else:
+        raise DesignError(f"The drawing of {assembly.name} must find room on {SIZE}; it is too large for any scale.")
+    origin = (left + right - x0 - x1) / 2, (floor + high - y0 - y1) / 2
+    placed = [moved(item, origin) for item in apart(drawn)]
+    every = (*frame(SIZE, block, words, scale), *around, *placed)
+    return Sheet("", f"{words.title}, {block.drawing_number}", SIZE, scale, origin, every)
 
 
-def _load_ezdxf() -> Any:
-    try:
-        import ezdxf
-        import ezdxf.units
-    except ImportError as error:
-        raise MissingLibraryError(f"A DXF file needs ezdxf ({error}); get it by: pip install ezdxf") from error
-    return ezdxf
+def _remarks(assembly: Assembly) -> list[str]:
+    mover = any(part.group == "mover" for part in assembly.parts)
+    place = f", mover at {format_quantity(assembly.position, 'length', 6)}" if mover else ""
+    lines = [f"Longitudinal section{place}. Dimensions in mm. Mass as drawn."]
+    if assembly.squeezes:
+        pairs = "; ".join(f"{one} in {other}" for one, other in assembly.squeezes)
+        lines.append(f"Drawn overlapping on purpose, one of them yields: {pairs}.")
+    if assembly.carried_mass:
+        lines.append(f"Carried along, not drawn: {format_quantity(assembly.carried_mass, 'mass', 4)}.")
+    return lines
 
 
-def _extent(assembly: Assembly) -> tuple[float, float, float]:
+def _top(assembly: Assembly, scale: float) -> float:
+    """y above all dimensions (mm)."""
+    rows = [-measure.place for measure in assembly.measures if not measure.across]
+    return extent(assembly)[2] * MM * scale + 8 + ROW * max([0.0, *rows])
+
+
+def _views(assembly: Assembly, section: Section, scale: float) -> list[Item]:
+    """The section and its dimensions about the model's origin."""
+    low, high, reach = (value * MM * scale for value in extent(assembly))
+    measures = assembly.measures or overall(assembly.parts, ROW / MM / scale)
+    items = section_view(section, scale)
+    across = [measure for measure in measures if measure.across]
+    columns = iter(_columns([measure.place * MM * scale for measure in across], low, high))
+    for measure in measures:
+        items.append(dimension(measure, scale, next(columns) if measure.across else _row(measure.place, reach)))
+    return items
+
+
+def _row(place: float, reach: float) -> float:
+    """y of the dimension line in a row, counted from 1 below the drawing and from -1 above it."""
+    side = -1 if place > 0 else 1
+    return side * (reach + 2 + ROW * abs(place))
+
+
+def _columns(places: Sequence[float], low: float, high: float) -> list[float]:
+    """x of the lines across; those that are meant to stand outside of the drawing do so in the same order, a row's
+    width from one another at whatever scale."""
+    result = list(places)
+    for side, edge in ((-1, low), (1, high)):
+        outside = sorted((x * side, i) for i, x in enumerate(places) if (x - edge) * side > 0)
+        for number, (_, i) in enumerate(outside, 1):
+            result[i] = edge + side * (2 + ROW * number)
+    return result
+
+
+def dimension(measure: Measure, scale: float, line: float, factor: float = 1.0) -> Dimension:
+    """A measure on paper, its line at x, or y along the axis (mm). factor : as in `Dimension`."""
+    start, end = on_paper((measure.start, measure.end), scale / factor)
+    label = f"{measure.sign}<>".replace("%%c", "Ø")
+    return linear(
+        measure.name, start, end, line, measure.length * MM, across=measure.across, label=label, factor=factor
+    )
+
+
+def extent(assembly: Assembly) -> tuple[float, float, float]:
     """Lowest and highest z, and the largest radius (m)."""
     points = [point for part in assembly.parts for point in part.profile]
     heights = [z for _, z in points]
     return min(heights), max(heights), max(r for r, _ in points)
 
 
-def _add_part(space: Any, part: Body, number: int, size: float) -> None:
-    found = face(part)
-    for polygon in getattr(found, "geoms", (found,)):
-        for ring in (polygon.exterior, *polygon.interiors):
-            space.add_lwpolyline(in_mm(ring.coords[:-1]), close=True, dxfattribs={"layer": "OUTLINE"})
-        add_hatch(space, part, number, polygon, size)
+def _with_details(assembly: Assembly, section: Section, items: list[Item], scale: float) -> list[Item]:
+    """The views with every detail beside one another below them."""
+    result = list(items)
+    x, low, _, _ = bounds(items)
+    for detail in assembly.details:
+        view, marks = detail_view(section, detail, scale)
+        x0, _, x1, y1 = bounds(view)
+        result += [*marks, *(moved(item, (x - x0, low - CLEAR - y1)) for item in view)]
+        x += x1 - x0 + 2 * CLEAR
+    return result
 
 
-def _add_style(document: Any, size: float) -> None:
-    document.dimstyles.new(
-        APPLICATION,
-        dxfattribs={
-            "dimtxt": size,
-            "dimasz": size,
-            "dimexe": 0.5 * size,
-            "dimexo": 0.3 * size,
-            "dimgap": 0.3 * size,
-            "dimtad": 1,
-            "dimdec": 3,
-            "dimzin": 8,
-            "dimdsep": ord("."),
-            "dimlfac": 1.0,
-            "dimtih": 0,
-            "dimtoh": 0,
-            "dimtmove": 2,
-            "dimblk": "",
-            "dimtxsty": "Standard",
-        },
-    )
-
-
-def _add_measure(space: Any, measure: Measure, reach: float, size: float) -> None:
-    """Its line stands at a height z, or in a row below or above the drawing, which is `reach` (mm) high."""
-    side = 1 if measure.place < 0 else -1
-    row = side * (reach + 3 * abs(measure.place) * size)
-    start, end = in_mm((measure.start, measure.end))
-    add_dimension(space, measure, start, end, measure.place * MM if measure.across else row)
+def list_sheets(assembly: Assembly, items: Sequence[Line], first: Page) -> list[Sheet]:
+    """Sheets of the parts list alone, where it is too long for the drawing; none where it is not."""
+    area = inner(SIZE)
+    if not parts_table(items, area)[1]:
+        return []
+    block, title = assembly.title, f"{assembly.name}, parts list"
+    sheets = []
+    for i, page in enumerate(list_pages(items, area)):
+        shown = str(replace(first, number=first.number + i))
+        words = TitleWords(title, block.part_number, block.drawing_number, page=shown)
+        every = (*frame(SIZE, block, words, None), *page)
+        sheets.append(Sheet(f"parts-list-{i + 1}", title, SIZE, 1.0, (0.0, 0.0), every))
+    return sheets

@@ -4,50 +4,68 @@ from __future__ import annotations
 
 from typing import Any
 
-from fluxbore.geometry.assembly import Assembly
-from fluxbore.geometry.drawing_lines import MM, View, add_dimension, add_hatch, add_text, in_mm
-from fluxbore.geometry.measure import Detail
-from fluxbore.geometry.outline import Point
-from fluxbore.geometry.section import face
+from fluxbore.geometry.measure import Detail, Measure
+from fluxbore.geometry.sheet import Circle, Hatch, Item, Stroke, Text, moved
+from fluxbore.geometry.sheet_dimension import linear
+from fluxbore.geometry.sheet_frame import SCALES, scale_text
+from fluxbore.geometry.sheet_text import LARGE
+from fluxbore.geometry.sheet_view import MM, Section, cut, on_paper, polygons
 
-SCALES = (1, 2, 5, 10, 20, 50, 100)
-"""To one, as ISO 5455 has them for enlargements."""
-
-LARGEST = 12.0
-"""Radius of a detail over the height of the text."""
+LARGEST = 26.0
+"""mm, radius of a detail."""
 
 
-def add_detail(space: Any, assembly: Assembly, detail: Detail, corner: Point, size: float) -> float:
-    """Draw it to the right of and above a corner of the sheet (mm); return where the next one may begin (mm).
+def detail_view(section: Section, detail: Detail, scale: float) -> tuple[list[Item], list[Item]]:
+    """The enlarged circle with its dimensions about its own middle, and the mark of it in the main view (mm)."""
+    larger = next((s for s in SCALES if s * detail.reach * MM <= LARGEST), scale)
+    larger = max(larger, scale)
+    radius = larger * detail.reach * MM
+    items = [*_cut_out(section, detail, larger), Circle("EDGES", (0.0, 0.0), radius)]
+    items += [_dimension(measure, detail, scale, larger) for measure in detail.measures]
+    name = f"{detail.name} ({scale_text(larger)})"
+    items.append(Text(name, (0.0, radius + 3), LARGE, "middle"))
+    ((z, y),) = on_paper([detail.centre], scale)
+    around = 1.1 * detail.reach * MM * scale
+    marks: list[Item] = [
+        Circle("EDGES", (z, y), around),
+        Text(detail.name, (z + around, y + around), LARGE),
+    ]
+    return items, marks
 
-    size : of the text (mm).
-    """
+
+def _cut_out(section: Section, detail: Detail, scale: float) -> list[Item]:
+    """What the circle holds of every face, about the circle's middle; its rim is no outline."""
     import shapely
 
-    scale = max((scale for scale in SCALES if scale * detail.reach * MM <= LARGEST * size), default=1)
-    radius = scale * detail.reach * MM
-    middle = corner[0] + radius + 8 * size, max(0.0, corner[1] + radius + 8 * size)
-    view: View = (detail.centre, middle, float(scale))
     disc = shapely.Point(detail.centre).buffer(detail.reach, quad_segs=32)
-    for number, part in enumerate(assembly.parts):
-        found = face(part)
-        for line in _parts_of(found.boundary.intersection(disc), "LineString"):
-            space.add_lwpolyline(in_mm(line.coords, view), dxfattribs={"layer": "OUTLINE"})
-        for polygon in _parts_of(found.intersection(disc), "Polygon"):
-            add_hatch(space, part, number, polygon, size, view)
-    space.add_circle(middle, radius, dxfattribs={"layer": "EDGES"})
-    for measure in detail.measures:
-        (place,) = in_mm([(measure.place, measure.place)], view)
-        start, end = in_mm((measure.start, measure.end), view)
-        add_dimension(space, measure, start, end, place[0] if measure.across else place[1], scale)
-    z, y = (value * MM for value in detail.centre)
-    around = 1.1 * detail.reach * MM
-    space.add_circle((z, y), around, dxfattribs={"layer": "EDGES"})
-    add_text(space, detail.name, (z + around, y + around), 1.4 * size)
-    add_text(space, f"{detail.name} ({scale}:1)", (middle[0], middle[1] - radius - 3 * size), 1.4 * size, centred=True)
-    return middle[0] + radius + 8 * size
+    items: list[Item] = []
+    for number, (part, found) in enumerate(zip(section.parts, section.faces, strict=True)):
+        for polygon in polygons(found.intersection(disc)):
+            items += [item for item in cut(part, number, polygon, scale) if isinstance(item, Hatch)]
+        for line in _lines(found.boundary.intersection(disc)):
+            items.append(Stroke("OUTLINE", on_paper(line.coords, scale)))
+    (middle,) = on_paper([detail.centre], scale)
+    return [moved(item, (-middle[0], -middle[1])) for item in items]
 
 
-def _parts_of(shape: Any, kind: str) -> list[Any]:
-    """The shapes of one kind in a shape or a collection of them."""
-    return [piece for piece in getattr(shape, "geoms", (shape,)) if piece.geom_type == kind and not piece.is_empty]
+def _lines(shape: Any) -> list[Any]:
+    found = getattr(shape, "geoms", (shape,))
+    return [piece for piece in found if piece.geom_type == "LineString" and not piece.is_empty]
+
+
+def _dimension(measure: Measure, detail: Detail, scale: float, larger: float) -> Item:
+    """With its line where the measure says, z of one across the axis and y' of one along it."""
+    z, y = detail.centre
+    start, end = on_paper([(p[0] - z, p[1] - y) for p in (measure.start, measure.end)], larger)
+    line = (measure.place - (z if measure.across else y)) * MM * larger
+    label = f"{measure.sign}<>".replace("%%c", "Ø")
+    return linear(
+        measure.name,
+        start,
+        end,
+        line,
+        measure.length * MM,
+        across=measure.across,
+        label=label,
+        factor=scale / larger,
+    )

@@ -80,9 +80,21 @@ def _step(job: Job) -> Contents:
 
 
 def _dxf(job: Job) -> Contents:
-    from fluxbore.geometry.drawing import dxf_text
+    from fluxbore.drawing_formats import dxf_files
 
-    return {f"{job.stem}.dxf": dxf_text(job.assembly, job.spec.materials)}
+    return dxf_files(job)
+
+
+def _svg(job: Job) -> Contents:
+    from fluxbore.drawing_formats import svg_files
+
+    return svg_files(job)
+
+
+def _pdf(job: Job) -> Contents:
+    from fluxbore.drawing_formats import pdf_files
+
+    return pdf_files(job)
 
 
 def _bom(job: Job) -> Contents:
@@ -122,7 +134,9 @@ def _three_mf(job: Job) -> Contents:
 FORMATS: dict[str, Format] = {
     "step": Format("STEP files of the whole at three places of its stroke, and of every part", _step),
     "bom": Format("bill of materials as CSV", _bom, parts=False),
-    "dxf": Format("section as DXF", _dxf),
+    "dxf": Format("drawings of the whole and of every part that is made, as DXF", _dxf),
+    "svg": Format("the same drawings as SVG", _svg),
+    "pdf": Format("the same drawings as one PDF", _pdf),
     "fem": Format("FEMM model of the field", _fem, lambda spec: actuator_of(spec).femm_model is not None, parts=False),
     "glb": Format("the whole as GLB, in metres, for viewers", _glb),
     "stl": Format("every part as binary STL, in millimetres, for printers", _stl),

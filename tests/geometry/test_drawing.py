@@ -16,7 +16,7 @@ from fluxbore.design.spec import Spec, load
 from fluxbore.geometry import own_files, section
 from fluxbore.geometry.assembly import Assembly
 from fluxbore.geometry.drawing import dxf_text
-from fluxbore.geometry.drawing_lines import APPLICATION
+from fluxbore.geometry.sheet_dxf import APPLICATION
 from fluxbore.geometry.helical_part import HelicalPart
 from fluxbore.geometry.mass import part_masses, total
 from fluxbore.geometry.measure import overall
@@ -115,7 +115,6 @@ def test_dimensions_are_the_specification_s(spec: Spec, drawn: Any) -> None:
         "cap length, cap end": cylinder + "cap_length",
         "cap length, rod end": cylinder + "cap_length",
         "bleed screw's thread": cylinder + "bleed_thread",
-        "port": "actuator.port.diameter",
         "groove diameter": "actuator.seal.groove_diameter",
         "groove width": "actuator.seal.groove_width",
     }
@@ -167,9 +166,9 @@ def test_the_sheet_names_parts_materials_masses_and_program(spec: Spec, whole: A
         assert word in texts
     assert any(text.startswith("fluxbore ") for text in texts)
     mass = f"{total(part_masses(whole, spec.materials)) * 1e3:.4g} g"
-    assert any("scale 1:1" in text and mass in text for text in texts)
+    assert {mass, "1:1", "A3", "PREHYDRA", "ISO 2768-mK", "1 of 1"} <= set(texts)
     layers = {entity.dxf.layer for entity in drawn.modelspace()}
-    assert layers == {"OUTLINE", "EDGES", "HIDDEN", "CENTRE", "HATCH", "DIMENSIONS", "TEXT", "SHEET"}
+    assert layers == {"OUTLINE", "EDGES", "HIDDEN", "CENTRE", "HATCH", "DIMENSIONS", "TEXT", "SHEET", "FRAME"}
 
 
 def test_solid_bars_are_not_hatched(spec: Spec, whole: Assembly) -> None:
