@@ -20,6 +20,7 @@ from fluxbore.fem.cells import ACROSS, ALONG, SHARE, WEIGHTS, chequered
 from fluxbore.fem.mapped import MappedMesh
 from fluxbore.fem.mesh import Floats, Topology
 from fluxbore.fem.problem import EdgeTerms, LinearPart, MagneticMaterial
+from fluxbore.fem.reluctivity import VACUUM_RELUCTIVITY
 
 _FIRST, _SECOND = np.tril_indices(9)
 _ACROSS_PAIRS = (ACROSS * WEIGHTS) @ ACROSS.T
@@ -122,3 +123,30 @@ def _of_edges(topology: Topology, edges: EdgeTerms) -> Floats:
     matrices = np.zeros((elements.size, *edges.matrices.shape[1:]))
     np.add.at(matrices, place.ravel(), edges.matrices)
     return topology.pattern.subset_assembler(elements).assemble(matrices)
+
+
+def shell_pull(grid: MappedMesh, annulus: tuple[float, float], psi: Floats) -> Floats:
+    """(n,) ∂F/∂ψ of the axial force on all that is inside an annulus of air; see `force.ForceShell`.
+
+    Its density has one derivative along s and one along z, so that over ds dz the sides of a rectangle cancel: the
+    operator is a topology's.
+    """
+    inner, outer = (grid.line(radius) for radius in annulus)
+    rows, columns = grid.z_lines.size - 1, grid.r_lines.size - 1
+    width = (annulus[1] ** 2 - annulus[0] ** 2) / 2
+    return np.asarray(_shear(rows, columns, inner, outer) @ psi) * (-2 * np.pi * VACUUM_RELUCTIVITY / width)
+
+
+@lru_cache(maxsize=4)
+def _shear(rows: int, columns: int, inner: int, outer: int) -> Any:
+    """(n, n) of ∫ ∂_s u ∂_z v + ∂_z u ∂_s v ds dz over the columns between two lines."""
+    from scipy.sparse import csr_array
+
+    nodes, mirrored = chequered(rows, columns)
+    column = np.arange(nodes.shape[0]) % columns
+    chosen = np.flatnonzero((column >= inner) & (column < outer))
+    pairs = (ACROSS * WEIGHTS) @ ALONG.T
+    values = np.where(mirrored.ravel()[chosen], -1.0, 1.0)[:, None] * (pairs + pairs.T).ravel()
+    where = (np.repeat(nodes[chosen], 9, axis=1).ravel(), np.tile(nodes[chosen], (1, 9)).ravel())
+    size = (2 * rows + 1) * (2 * columns + 1)
+    return csr_array((values.ravel(), where), shape=(size, size))

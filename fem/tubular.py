@@ -11,14 +11,14 @@ import numpy as np
 from fluxbore.design.materials import PermanentMagnet
 from fluxbore.fem.asymptotic import open_edges
 from fluxbore.fem.field import along_radius
-from fluxbore.fem.force import axial_force_gradient, incremental_thrust, thrust_response
+from fluxbore.fem.force import incremental_thrust, thrust_response
 from fluxbore.fem.linkage import Cut, circuits, cuts, flux_linkages, synchronous_inductance
 from fluxbore.fem.magnetostatics import Settings, Solution, solve
 from fluxbore.fem.mapped import MappedMesh, Subdivision, mapped_mesh
 from fluxbore.fem.mesh import Floats, Ints
 from fluxbore.fem.newton import Convergence
 from fluxbore.fem.problem import MagneticMaterial, Problem
-from fluxbore.fem.rectangles import linear_part
+from fluxbore.fem.rectangles import linear_part, shell_pull
 from fluxbore.fem.reluctivity import VACUUM_RELUCTIVITY, reluctivity_curve
 from fluxbore.geometry.cross_section import CrossSection, Region
 
@@ -67,7 +67,7 @@ class TubularSolution:
     @cached_property
     def pull(self) -> Floats:
         """(n,) ∂F/∂ψ of the axial force F = ½ ψ·∂F/∂ψ."""
-        return axial_force_gradient(self.solution, self.section.force_annulus)
+        return shell_pull(self.grid, self.section.force_annulus, self.solution.psi)
 
     @cached_property
     def response(self) -> Floats:

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from fluxbore.design.spec import Spec
+from fluxbore.fem.force import axial_force_gradient
 from fluxbore.fem.magnetostatics import Settings, System
 from fluxbore.fem.rectangles import linear_part
 from fluxbore.fem.tubular import TubularSolution, solve_positions
@@ -65,3 +66,10 @@ def test_fast_and_plain_path_agree(spec: Spec) -> None:
         assert one.cogging_force() == pytest.approx(other.cogging_force(), rel=1e-9, abs=1e-9)
         psi = other.solution.psi
         assert one.solution.psi == pytest.approx(psi, rel=1e-9, abs=1e-9 * np.abs(psi).max())
+
+
+def test_pull_is_that_of_the_force_shell(mid_stroke: TubularSolution) -> None:
+    """Catches a mirrored cell with the wrong sign, or a column beside the shell: against the triangles' stress."""
+    annulus = mid_stroke.section.force_annulus
+    plain = axial_force_gradient(mid_stroke.solution, annulus)
+    assert mid_stroke.pull == pytest.approx(plain, rel=1e-9, abs=1e-12 * np.abs(plain).max())
