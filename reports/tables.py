@@ -36,7 +36,7 @@ class Table:
     """head : column titles. rows : the first cell of each is its header. foot : rows of sums.
 
     sections : number of the first row under a heading, and the heading. signs : whether the texts are sentences with
-    symbols such as τ_f, whose subscripts the page sets.
+    symbols such as τ_f, whose subscripts the page sets. parts : of a parts list, each row's number there; 0 for none.
     """
 
     caption: str
@@ -46,6 +46,7 @@ class Table:
     words: frozenset[int] = frozenset()
     """Columns of words; all others but the first are numbers and stand flush right."""
     sections: tuple[tuple[int, str], ...] = ()
+    parts: tuple[int, ...] = ()
     signs: bool = False
 
     @property
@@ -141,7 +142,8 @@ def parts(rows: Sequence[PartRow]) -> Table | None:
         whole = Cell(mass(sum(row.mass * row.count for row in members)), "strong")
         foot.append((Cell(title), *(blank,) * 5, Cell(str(count)), blank, blank, whole))
     head = ("Part", "Number", "Group", "Material", "Size", "Make, or buy as", "Pieces", *titles)
-    return Table("Parts and masses", head, lines, tuple(foot), frozenset({1, 2, 3, 4, 5}))
+    numbers = tuple(row.number for row in rows)
+    return Table("Parts and masses", head, lines, tuple(foot), frozenset({1, 2, 3, 4, 5}), parts=numbers)
 
 
 def details(evaluations: Iterable[tuple[str, Evaluation | None]]) -> Table | None:

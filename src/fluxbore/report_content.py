@@ -10,7 +10,6 @@ from importlib.metadata import PackageNotFoundError, version
 from typing import TYPE_CHECKING
 
 from fluxbore import __version__
-from fluxbore.design.errors import MissingLibraryError
 from fluxbore.design.spec import Spec
 from fluxbore.geometry.assembly import Assembly, interferences
 from fluxbore.geometry.helical_clearance import narrowest
@@ -25,15 +24,21 @@ if TYPE_CHECKING:
 
 def picture(parts: Assembly) -> Picture:
     """The assembly with its stator cut open, rendered; without graphics libraries the reason why not."""
-    from fluxbore.geometry.step import tessellate
-    from fluxbore.reports.content import Picture
+    from fluxbore.geometry.model import VIEWED
+    from fluxbore.geometry.part_surface import surface
     from fluxbore.reports.scene import render_picture
 
-    try:
-        meshes = tessellate(parts, 2e-5, cut_away=True)
-    except MissingLibraryError as error:
-        return Picture(None, str(error))
-    return render_picture(meshes)
+    found = [(part, surface(part, VIEWED, cut_open=part.group == parts.outside)) for part in parts.parts]
+    return render_picture([(part.name, part.colour, shown.points, shown.triangles) for part, shown in found])
+
+
+def model(spec: Spec, parts: Assembly) -> bytes:
+    """The parts as GLB, for the live view."""
+    from fluxbore.geometry.gltf import glb
+    from fluxbore.geometry.model import VIEWED, shapes
+    from fluxbore.geometry.parts_list import parts_list
+
+    return glb(parts, shapes(parts_list(parts, spec.materials), VIEWED), spec.materials)
 
 
 def part_rows(spec: Spec, parts: Assembly) -> tuple[PartRow, ...]:
@@ -57,6 +62,7 @@ def part_rows(spec: Spec, parts: Assembly) -> tuple[PartRow, ...]:
                 item.part_number,
                 item.source,
                 part.bought,
+                item.number,
             )
         )
     if parts.carried_mass > 0:

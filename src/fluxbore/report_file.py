@@ -52,6 +52,7 @@ def write_report_file(
         slots=views.slots(final) if views.slots is not None else None,
         parts=gather.part_rows(final, parts),
         assembly=parts,
+        model=gather.model(final, parts),
         picture=gather.picture(parts) if picture else Picture(None, "No picture was asked for."),
         checked=gather.checked(parts, views.words.squeeze),
         not_checked=(*views.words.not_checked, *_untold(findings), *findings.warnings),
