@@ -158,6 +158,11 @@ def _study(numeric: Sequence[Key]) -> dict[str, Any]:
                     "name": _text(),
                     "axes": {"type": "array", "items": axis, "minItems": 1},
                     "published_optimum": bound,
+                    "published": {
+                        "type": "array",
+                        "items": {"type": "array", "items": bound, "minItems": 2, "maxItems": 2},
+                        "minItems": 1,
+                    },
                     "source": _text(),
                 },
                 ("axes",),

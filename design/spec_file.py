@@ -11,9 +11,9 @@ from fluxbore.design.keys import Key, Value, toml_string
 from fluxbore.design.performance import FIGURES
 from fluxbore.design.spec import Spec
 from fluxbore.design.study import Axis, Constraint, Objective, Production, Study
+from fluxbore.design.study_fields import figure_key
 from fluxbore.design.study_production_reader import PRODUCTION_KEYS
 from fluxbore.design.study_search_reader import PARETO_KEYS, SEARCH_KEYS
-from fluxbore.design.units import DIMENSIONS
 
 _ATTRIBUTES = {"yield": "target_yield"}
 """Where a key's name is no name of Python's."""
@@ -101,6 +101,10 @@ def _study_lines(study: Study, keys: Mapping[str, Key]) -> list[str]:
         lines += ["", "[[study.sweeps]]", f"name = {toml_string(sweep.name)}"]
         if sweep.reference is not None:
             lines.append(f"published_optimum = {_limit(keys[sweep.axes[0].key], sweep.reference)}")
+        if sweep.published and study.objective is not None:
+            x, y = keys[sweep.axes[0].key], figure_key(study.objective.figure)
+            pairs = ", ".join(f"[{_limit(x, at)}, {y.write(value)}]" for at, value in sweep.published)
+            lines.append(f"published = [{pairs}]")
         if sweep.reference_source:
             lines.append(f"source = {toml_string(sweep.reference_source)}")
         lines.append("axes = [" + ", ".join(_axis(axis, keys[axis.key]) for axis in sweep.axes) + "]")
@@ -138,9 +142,7 @@ def _production_lines(production: Production, keys: Mapping[str, Key]) -> list[s
 
 def _constraint_lines(constraint: Constraint, keys: Mapping[str, Key]) -> list[str]:
     if constraint.subject in FIGURES:
-        figure = FIGURES[constraint.subject]
-        kind = "quantity" if figure.dimension in DIMENSIONS else "number"
-        key = Key(constraint.subject, "", kind, figure.dimension)
+        key = figure_key(constraint.subject)
         lines = ["", "[[study.constraints]]", f'figure = "{constraint.subject}"']
     else:
         key = keys[constraint.subject]

@@ -77,12 +77,14 @@ class Sweep:
     """A full grid over one or more axes (the last axis runs fastest).
 
     reference : published optimum of the single axis (SI) with its source, to be drawn beside the curve, or None.
+    published : published points of the single axis, its value and that of the study's objective there (SI).
     """
 
     name: str
     axes: tuple[Axis, ...]
     reference: float | None = None
     reference_source: str = ""
+    published: tuple[tuple[float, float], ...] = ()
 
     @property
     def size(self) -> int:

@@ -12,6 +12,7 @@ from fluxbore.design.keys import Key
 from fluxbore.design.performance import FIGURES
 from fluxbore.design.specification import suggestion
 from fluxbore.design.study import Objective
+from fluxbore.design.units import DIMENSIONS
 
 PERCENTAGE = re.compile(r"^ *([+-]?[0-9]{1,17}(?:\.[0-9]{1,17})?) *% *$")
 """A fraction as people write it."""
@@ -43,6 +44,12 @@ def known_figure(name: object, where: str) -> str:
         hint = suggestion(name, FIGURES) if isinstance(name, str) else ""
         raise SpecError(f"{where} must name a figure, such as force_constant or total_mass{hint}; got {shown(name)}.")
     return name
+
+
+def figure_key(name: str) -> Key:
+    """How a value of this figure is read and written."""
+    dimension = FIGURES[name].dimension
+    return Key(name, "", "quantity" if dimension in DIMENSIONS else "number", dimension)
 
 
 def numeric_key(raw: Mapping[str, Any], where: str, known: Mapping[str, Key], *, integers: bool) -> Key:

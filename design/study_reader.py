@@ -34,7 +34,8 @@ def read_study(
         read_constraint(item, f"study.constraints.{i}", known) for i, item in enumerate(tables(raw, "constraints"))
     )
     check_constraints(constraints, variables, known)
-    sweeps = tuple(read_sweep(item, f"study.sweeps.{i}", known) for i, item in enumerate(tables(raw, "sweeps")))
+    figure = objective.figure if objective is not None else None
+    sweeps = tuple(read_sweep(item, f"study.sweeps.{i}", known, figure) for i, item in enumerate(tables(raw, "sweeps")))
     for i, sweep in enumerate(sweeps):
         if sweep.name in (other.name for other in sweeps[:i]):
             raise SpecError(f"study.sweeps.{i}.name must differ from the other sweeps' names; got {shown(sweep.name)}.")

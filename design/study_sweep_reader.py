@@ -8,15 +8,15 @@ from typing import Any
 from fluxbore.design.errors import SpecError, shown
 from fluxbore.design.keys import Key
 from fluxbore.design.study import Axis, Sweep
-from fluxbore.design.study_fields import allow, check_at, loose, numeric_key, read_value
+from fluxbore.design.study_fields import allow, check_at, figure_key, loose, numeric_key, read_value
 
 LARGEST_GRID = 1_000_000
 """Designs in one sweep; a slip in ``step`` asks for more than this."""
 
 
-def read_sweep(raw: Mapping[str, Any], where: str, known: Mapping[str, Key]) -> Sweep:
-    """One table of ``study.sweeps``."""
-    allow(raw, where, ("name", "axes", "published_optimum", "source"))
+def read_sweep(raw: Mapping[str, Any], where: str, known: Mapping[str, Key], figure: str | None = None) -> Sweep:
+    """One table of ``study.sweeps``. figure : the study's objective, which published points are of."""
+    allow(raw, where, ("name", "axes", "published_optimum", "published", "source"))
     axes_raw = raw.get("axes")
     if not isinstance(axes_raw, list) or not axes_raw:
         raise SpecError(f"{where}.axes must be a list of at least one table; got {shown(axes_raw)}.")
@@ -29,14 +29,31 @@ def read_sweep(raw: Mapping[str, Any], where: str, known: Mapping[str, Key]) -> 
         if len(axes) != 1:
             raise SpecError(f"{where}.published_optimum needs exactly one axis; got {len(axes)}.")
         reference = read_value(raw["published_optimum"], loose(known[names[0]]), f"{where}.published_optimum")
+    published = _published(raw["published"], f"{where}.published", axes, known, figure) if "published" in raw else ()
     name, source = (
         str(Key(f"{where}.{word}", "", "word").read(raw[word])) if word in raw else default
         for word, default in (("name", " x ".join(names)), ("source", ""))
     )
-    sweep = Sweep(name, axes, reference, source)
+    sweep = Sweep(name, axes, reference, source, published)
     if sweep.size > LARGEST_GRID:
         raise SpecError(f"{where} must have at most {LARGEST_GRID} designs; got {sweep.size}.")
     return sweep
+
+
+def _published(
+    raw: object, where: str, axes: tuple[Axis, ...], known: Mapping[str, Key], figure: str | None
+) -> tuple[tuple[float, float], ...]:
+    """Pairs of the axis's value and the objective's."""
+    if len(axes) != 1:
+        raise SpecError(f"{where} needs exactly one axis; got {len(axes)}.")
+    if figure is None:
+        raise SpecError(f"{where} needs study.objective, whose figure the points are of; got none.")
+    if not isinstance(raw, list) or not raw or not all(isinstance(pair, list) and len(pair) == 2 for pair in raw):
+        raise SpecError(f"{where} must be a list of pairs [value, {figure}]; got {shown(raw)}.")
+    key, value = loose(known[axes[0].key]), figure_key(figure)
+    return tuple(
+        (read_value(x, key, f"{where}.{i}.0"), read_value(y, value, f"{where}.{i}.1")) for i, (x, y) in enumerate(raw)
+    )
 
 
 def _axis(raw: object, where: str, known: Mapping[str, Key]) -> Axis:

@@ -75,6 +75,11 @@ def sweep_curve(
             marks.append(f"published optimum {x_scale.quantity(result.sweep.reference)}")
             published = x_scale.shown(result.sweep.reference)
             plot.axvline(published, color=PUBLISHED, lw=1.4, ls=(0, (5, 3)), label=marks[-1])
+        if result.sweep.published and figure == _objective(spec):
+            points = [(x_scale.shown(x), y_scale.shown(y)) for x, y in result.sweep.published]
+            marks.append(f"published ({len(points)})")
+            look: dict[str, Any] = {"color": PUBLISHED, "mfc": "none", "mew": 1.8, "ms": 8, "ls": "none"}
+            plot.plot(*zip(*points, strict=True), "s", label=marks[-1], **look)
         failed = [x_scale.shown(row.values[along.key]) for row in result.rows if not row.evaluation.ok]
         if failed:
             marks.append(f"no result ({len(failed)})")
@@ -85,6 +90,10 @@ def sweep_curve(
         alt = f"{capital(figure_label(figure))} over {key_label(spec, along.key)}; " + "; ".join(marks)
         caption = f"{capital(figure_label(figure))} over {key_label(spec, along.key)}, by {route}."
         return drawing(canvas, name, alt + ".", caption)
+
+
+def _objective(spec: Spec) -> str:
+    return spec.study.objective.figure if spec.study.objective is not None else ""
 
 
 def convergence_curve(spec: Spec, search: SearchResult, objective: Objective) -> Drawing | None:

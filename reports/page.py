@@ -10,6 +10,7 @@ from typing import Any
 
 from fluxbore.design.errors import OutputError
 from fluxbore.design.keys import Key
+from fluxbore.design.spec_file import to_toml
 from fluxbore.optimize.evaluation import Evaluation
 from fluxbore.optimize.folder import write_atomic
 from fluxbore.reports import (
@@ -143,6 +144,7 @@ def _context(content: ReportContent, designs: Mapping[str, Any] | None) -> Mappi
             for note in sorted(content.design_spec.notes, key=lambda note: note.status)
         ],
         "provenance": content.provenance,
+        "spec_texts": _spec_texts(content),
         "details": tables.details(_routes(content)),
         "seconds": duration(content.seconds) if content.seconds is not None else "",
         "symbols": _symbols(content),
@@ -156,6 +158,16 @@ def _picture(content: ReportContent) -> tuple[str | None, Drawing | None]:
     if content.assembly is not None and content.assembly.parts:
         drawn = section_drawing.section(content.assembly, width=1000.0 if png else 640.0)
     return (f"data:image/png;base64,{base64.b64encode(png).decode()}" if png else None), drawn
+
+
+def _spec_texts(content: ReportContent) -> list[tuple[str, str]]:
+    """The whole specification, and that of the chosen design: what is needed to compute all this again."""
+    if content.chosen_spec is None:
+        return [("The specification", to_toml(content.spec))]
+    return [
+        ("The specification of the start, with its study", to_toml(content.spec)),
+        ("The specification of the chosen design", to_toml(content.chosen_spec)),
+    ]
 
 
 def _sweeps(content: ReportContent) -> list[dict[str, Any]]:

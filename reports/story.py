@@ -295,7 +295,22 @@ def sweep_finding(spec: Spec, result: SweepResult, figure: str, maximise: bool) 
         apart = abs(axis.values.index(found) - axis.values.index(nearest)) if found in axis.values else 0
         agreement = "the same" if same else f"{apart} grid steps from it" if apart != 1 else "one grid step from it"
         text += f" The published optimum{source} is {shown}: {agreement}."
-    return text + tail
+    return text + _published(spec, result, figure) + tail
+
+
+def _published(spec: Spec, result: SweepResult, figure: str) -> str:
+    """The published points beside what was computed at the same places; between grid points nothing is claimed."""
+    objective, found = spec.study.objective, []
+    if objective is None or objective.figure != figure or len(result.sweep.axes) != 1:
+        return ""
+    key = result.sweep.axes[0].key
+    for x, y in result.sweep.published:
+        place, scale = key_scale(spec, key, [x]).quantity(x), figure_scale(figure, [y])
+        row = next((row for row in result.rows if abs(row.values[key] - x) <= 1e-9 * max(abs(x), 1e-12)), None)
+        value = getattr(row.evaluation.performance, figure) if row is not None else None
+        beside = f", computed {scale.quantity(value)} ({change(y, value)})" if value is not None else ""
+        found.append(f"{scale.quantity(y)} at {place}{beside}")
+    return f" Published: {listing(found)}." if found else ""
 
 
 def routes(design: Evaluation) -> str:

@@ -40,6 +40,9 @@ def refused(lines: str) -> str:
     return sentence
 
 
+AIM = 'objective = "maximise force_constant"\n'
+
+
 def axes(text: str) -> str:
     return f"[[study.sweeps]]\naxes = [{text}]"
 
@@ -56,6 +59,7 @@ def test_the_paper_s_study():
     assert ring.axes[0].values == tuple(float(f"{5 * i}e-4") for i in range(24))
     assert yoke.axes[0].values == tuple(float(f"{1 + 3 * i}e-4") for i in range(9))
     assert (ring.reference, yoke.reference) == (1.5e-3, 4e-4)
+    assert (ring.published, yoke.published) == (((1.5e-3, 8.67),), ((1e-3, 8.67),))
     assert found.search == Search("auto", 40, 1e-4, 1)
 
 
@@ -231,6 +235,11 @@ WRONG = {
     axes(f'{{ key = "{RING}", values = ["1 mm"] }}') + "\nname = 3": "study.sweeps.0.name must be text in quotes; got 3.",
     axes(f'{{ key = "{RING}", values = ["1 mm"] }}') + "\nsource = []": "study.sweeps.0.source must be text in quotes; got [].",
     axes(f'{{ key = "{RING}", values = ["1 mm"] }}') + '\npublished_optimum = "1 T"': "study.sweeps.0.published_optimum must be a length",
+    axes(f'{{ key = "{RING}", values = ["1 mm"] }}') + '\npublished = [["1 mm", "8 N/A"]]': "study.sweeps.0.published needs study.objective, whose figure the points are of; got none.",
+    AIM + axes(f'{{ key = "{RING}", values = ["1 mm"] }}') + "\npublished = []": "study.sweeps.0.published must be a list of pairs [value, force_constant]; got [].",
+    AIM + axes(f'{{ key = "{RING}", values = ["1 mm"] }}') + '\npublished = [["1 mm"]]': "study.sweeps.0.published must be a list of pairs [value, force_constant]",
+    AIM + axes(f'{{ key = "{RING}", values = ["1 mm"] }}') + '\npublished = [["1 T", "8 N/A"]]': "study.sweeps.0.published.0.0 must be a length",
+    AIM + axes(f'{{ key = "{RING}", values = ["1 mm"] }}') + '\npublished = [["1 mm", "8 N"]]': "study.sweeps.0.published.0.1 must be a force constant",
     (axes(f'{{ key = "{RING}", values = ["1 mm"] }}') + "\n") * 2: "study.sweeps.1.name must differ from the other sweeps' names",
     axes(f'{{ key = "{RING}", from = "0 mm", to = "11 mm", step = "1 um" }}, {{ key = "{YOKE}", from = "1 mm", to = "2 mm", step = "1 um" }}'): "study.sweeps.0 must have at most 1000000 designs; got 11012001.",
     # The rest.

@@ -36,7 +36,9 @@ STUDY = Study(
         Constraint("actuator.back_yoke.thickness", lower=0.5e-3),
     ),
     sweeps=(
-        Sweep("Ring width", (Axis(RING, tuple(0.5e-3 * i for i in range(24))),), 1.5e-3, f"{PAPER}(a)"),
+        Sweep(
+            "Ring width", (Axis(RING, tuple(0.5e-3 * i for i in range(24))),), 1.5e-3, f"{PAPER}(a)", ((1.5e-3, 8.67),)
+        ),
         Sweep("Yoke thickness", (Axis(YOKE, tuple(1e-4 + 3e-4 * i for i in range(9))),), 0.4e-3, f"{PAPER}(b)"),
     ),
     hold=("actuator.winding.turns_density",),

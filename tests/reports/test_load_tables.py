@@ -2,12 +2,8 @@
 
 from __future__ import annotations
 
-import dataclasses
-
 from fluxbore.fem.field_loads import Load
-from fluxbore.reports.content import ReportContent
 from fluxbore.reports.load_tables import section
-from fluxbore.reports.page import render
 
 LOADS = (
     Load("ring", 9, "iron", "1010", 1.334, 1.19, 2.031, 2.55, 0.489),
@@ -34,10 +30,6 @@ def test_numbers_and_units() -> None:
     assert "rings (9) 152 %; magnets (8) 87 %" in found["picture"].alt
 
 
-def test_the_page_shows_them_where_they_are_known(content: ReportContent) -> None:
-    """Catches a section that stays away, and an empty one."""
-    field = dataclasses.replace(content.start_flux_map, loads=LOADS) if content.start_flux_map else None
-    with_them = render(ReportContent(spec=content.spec, flux_map=field, words=content.words))
-    assert "Saturation and demagnetisation" in with_them
-    assert "knee 1.334\u00a0T" in with_them
+def test_without_limits_there_is_no_section() -> None:
+    """Catches an empty table."""
     assert section((), "at no current") is None
