@@ -16,12 +16,12 @@ from fluxbore.design.spec import Spec, load
 from fluxbore.geometry import own_files, section
 from fluxbore.geometry.assembly import Assembly
 from fluxbore.geometry.drawing import dxf_text
-from fluxbore.geometry.sheet_dxf import APPLICATION
 from fluxbore.geometry.helical_part import HelicalPart
 from fluxbore.geometry.mass import part_masses, total
 from fluxbore.geometry.measure import overall
 from fluxbore.geometry.outline import rectangle
 from fluxbore.geometry.part import Hole, Part
+from fluxbore.geometry.sheet_dxf import APPLICATION
 
 MM = 1e-3
 EXAMPLES = Path(__file__).parents[2] / "examples"
