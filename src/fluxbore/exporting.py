@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from fluxbore.actuators import ACTUATORS, STROKE_PLACES, actuator_of, assembly_of
-from fluxbore.design.errors import SpecError
+from fluxbore.design.errors import DesignError, SpecError
 from fluxbore.design.spec import Spec
 from fluxbore.geometry import own_files
 from fluxbore.geometry.assembly import Assembly
@@ -22,9 +22,13 @@ from fluxbore.geometry.standing import Standing, standings
 from fluxbore.optimize.folder import Folder, open_folder
 
 if TYPE_CHECKING:
+    from fluxbore.fem.femm_model import FemmModel
     from fluxbore.geometry.parts_list import Item
 
 STEP_SCHEMAS = ("AP242", "AP214")
+
+FIELD_ACCURACY = 0.01
+"""Of the field that is written, relative, by the estimated error of its energy."""
 
 Contents = own_files.Contents
 """Name below the folder -> what the file holds."""
@@ -103,14 +107,36 @@ def _bom(job: Job) -> Contents:
     return {f"{job.stem}-parts.csv": bill_of_materials(job.assembly, job.items)}
 
 
-def _fem(job: Job) -> Contents:
-    from fluxbore.fem.femm_writer import write_text
-
+def _field_model(job: Job) -> FemmModel:
     make = actuator_of(job.spec).femm_model
     if make is None:
         able = " or ".join(f'"{kind}"' for kind, verbs in ACTUATORS.items() if verbs.femm_model is not None)
         raise SpecError(f'actuator.kind must be {able} for a FEMM model; got "{job.spec.kind.name}".')
-    return {f"{job.stem}.fem": write_text(make(job.spec))}
+    return make(job.spec)
+
+
+def _has_field(spec: Spec) -> bool:
+    return actuator_of(spec).femm_model is not None
+
+
+def _fem(job: Job) -> Contents:
+    from fluxbore.fem.femm_writer import write_text
+
+    return {f"{job.stem}.fem": write_text(_field_model(job))}
+
+
+def _vtu(job: Job) -> Contents:
+    """The field of the same model as the FEMM file's, which lets the two be held against each other."""
+    from fluxbore.fem.femm_solution import solve_model
+    from fluxbore.fem.field_file import vtu
+    from fluxbore.fem.threads import one_thread
+
+    with one_thread():
+        solved = solve_model(_field_model(job), accuracy=FIELD_ACCURACY)
+    convergence = solved.solution.convergence
+    if not convergence.converged:
+        raise DesignError(f"The field of {job.assembly.name} must converge to be written; it is {convergence.status}.")
+    return {f"{job.stem}.vtu": vtu(solved)}
 
 
 def _glb(job: Job) -> Contents:
@@ -137,7 +163,8 @@ FORMATS: dict[str, Format] = {
     "dxf": Format("drawings of the whole and of every part that is made, as DXF", _dxf),
     "svg": Format("the same drawings as SVG", _svg),
     "pdf": Format("the same drawings as one PDF", _pdf),
-    "fem": Format("FEMM model of the field", _fem, lambda spec: actuator_of(spec).femm_model is not None, parts=False),
+    "fem": Format("FEMM model of the field", _fem, _has_field, parts=False),
+    "vtu": Format("the field without current as VTU, for ParaView", _vtu, _has_field, parts=False),
     "glb": Format("the whole as GLB, in metres, for viewers", _glb),
     "stl": Format("every part as binary STL, in millimetres, for printers", _stl),
     "3mf": Format("the whole as 3MF, in millimetres, for printers", _three_mf),
