@@ -6,8 +6,8 @@ import math
 from typing import TYPE_CHECKING
 
 from fluxbore.reports.compare_content import ComparedDesign, Comparison
-from fluxbore.reports.section_drawing import EDGE, faces
-from fluxbore.reports.svg import Drawing, drawing, new_figure, style
+from fluxbore.reports.section_drawing import faces
+from fluxbore.reports.svg import EDGE, Drawing, drawing, new_figure, style
 from fluxbore.reports.wording import capital, listing, significant
 
 if TYPE_CHECKING:

@@ -12,16 +12,13 @@ from fluxbore.geometry.assembly import Assembly
 from fluxbore.geometry.helical_part import HelicalPart
 from fluxbore.geometry.outline import Profile
 from fluxbore.geometry.part import Body
-from fluxbore.reports.svg import Drawing, drawing, new_figure, style
+from fluxbore.reports.svg import EDGE, Drawing, drawing, new_figure, style
 
 FEW = 6
 """Parts that the legend names one by one; of more it names their roles."""
 
 TALLEST = 0.6
 """Height of the drawing, of its width."""
-
-EDGE = "#26323c"
-"""The outline of a part; its face has the part's own colour in every theme."""
 
 
 def section(assembly: Assembly, name: str = "section", width: float = 1000.0) -> Drawing:

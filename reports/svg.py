@@ -21,6 +21,9 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 INK, MUTED, GRID = "#15232f", "#5a6b7a", "#d9e0e6"
+EDGE = "#26323c"
+"""The outline of a part and its axis; its face has the part's own colour in every theme."""
+
 CHOSEN, START, PUBLISHED, GOOD, BAD, OTHER = "#1763b5", "#8393a1", "#b3541e", "#2b7a4b", "#b42b33", "#6d4aa8"
 
 VARIABLES = {
@@ -33,6 +36,7 @@ VARIABLES = {
     GOOD: "good",
     BAD: "bad",
     OTHER: "other",
+    EDGE: "edge",
 }
 """Colour in the drawing -> CSS variable ``--fig-...`` of the page; the colour itself is the light theme's."""
 
