@@ -34,7 +34,7 @@ def test_values_are_si_and_every_key_has_one(spec):
     assert spec.word("actuator.name") == "iPEHLA"
     computed = {"benchmark.mcfc.moving_mass", "benchmark.mcfc.force_constant"}  # of the design where not given
     computed.add("actuator.mover.longest_magnet")  # any length where not given
-    computed |= {f"drawing.{name}" for name in ("part_number", "number", "author", "organisation")}
+    computed |= {f"drawing.{name}" for name in ("part_number", "number", "author", "approver", "organisation")}
     assert {key.name for key in spec.kind.keys} - computed == set(spec.values)
     with pytest.raises(FrozenInstanceError):
         spec.given = {}
