@@ -45,12 +45,9 @@
         const dot = fluxbore.element("i", i ? { style: `background:${rows[i - 1].colour}` } : {});
         return i ? fluxbore.element("div", {}, dot, text) : fluxbore.element("div", {}, text);
       }));
-      const beyond = stop.x > (left + right) / 2;
-      tip.style.left = `${(100 * stop.x) / view.width}%`;
       // Where the curves are not: the numbers must not hide what they are read off.
       const high = rows.length > 0 && rows.every((row) => row.y < (top + bottom) / 2);
-      tip.style.top = `${(100 * (high ? bottom : top)) / view.height}%`;
-      tip.style.transform = `translate(${beyond ? "calc(-100% - 10px)" : "10px"}, ${high ? "calc(-100% - 4px)" : "0"})`;
+      fluxbore.beside(tip, stop.x / view.width, (high ? bottom : top) / view.height, high);
       svg.setAttribute("aria-valuenow", String(place));
       svg.setAttribute("aria-valuetext", texts.join("; "));
     }

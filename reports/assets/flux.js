@@ -34,11 +34,8 @@
       marks.replaceChildren(...[0, 1].map(() => fluxbore.drawn(svg, "path", { class: "cross", d: `M${x - 8} ${y}h16M${x} ${y - 8}v16` })));
       tip.replaceChildren(...lines.map((line) => fluxbore.element("div", {}, ...subscripts(line))));
       tip.hidden = false;
-      tip.style.left = `${(100 * x) / view.width}%`;
-      tip.style.top = `${(100 * y) / view.height}%`;
-      const right = x > (map.box[0] + map.box[2]) / 2 || maps.length > 1 && x > view.width / 2;
       const low = y > (map.box[1] + map.box[3]) / 2;
-      tip.style.transform = `translate(${right ? "calc(-100% - 12px)" : "12px"}, ${low ? "calc(-100% - 12px)" : "12px"})`;
+      fluxbore.beside(tip, x / view.width, (y + (low ? -8 : 12)) / view.height, low, 12);
       if (aloud) told.textContent = lines.join("; ");
     }
 

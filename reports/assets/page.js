@@ -17,6 +17,15 @@ const fluxbore = {
     return text.replace("-", "−");
   },
 
+  // A box of words beside a place of a figure (shares of its width and height), on the side where there is more room.
+  beside(tip, across, down, low, gap = 10) {
+    const before = across > 0.5;
+    tip.style.left = `${100 * across}%`;
+    tip.style.top = `${100 * down}%`;
+    tip.style.maxWidth = `calc(${100 * (before ? across : 1 - across)}% - ${gap}px)`;
+    tip.style.transform = `translate(${before ? `calc(-100% - ${gap}px)` : `${gap}px`}, ${low ? "calc(-100% - 4px)" : "0"})`;
+  },
+
   // An element with attributes and children; in a drawing, of the drawing's own namespace.
   element(name, attributes = {}, ...children) {
     return fluxbore.fill(document.createElement(name), attributes, children);
