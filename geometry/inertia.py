@@ -11,6 +11,7 @@ import itertools
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 import numpy.typing as npt
@@ -93,31 +94,41 @@ def _profile(profile: Profile) -> Tensor:
 
 def _taken(part: Part, hole: Hole) -> Tensor:
     """What a hole takes away, x along it, less what a wider drilling on the same axis takes away already."""
-    gone = _drilled(part.profile, hole, hole.bottom)
+    gone = _tensor(_drilled(part.profile, hole.z, hole.diameter, hole.bottom))
     wider = [
         other.bottom
         for other in part.holes
         if other.diameter > hole.diameter and (other.z, other.angle) == (hole.z, hole.angle)
     ]
-    return gone - _drilled(part.profile, hole, max(min(wider), hole.bottom)) if wider else gone
+    if not wider:
+        return gone
+    return gone - _tensor(_drilled(part.profile, hole.z, hole.diameter, max(min(wider), hole.bottom)))
 
 
-def _drilled(profile: Profile, hole: Hole, bottom: float) -> Tensor:
-    """As `fluxbore.geometry.part` integrates a hole's volume: the same stations and the same chords."""
-    radius = hole.diameter / 2
-    inside = {math.asin((z - hole.z) / radius) for _, z in profile if abs(z - hole.z) < radius}
-    found = np.zeros(4)
+@lru_cache(maxsize=256)  # holes around a part differ by their angle alone
+def _drilled(profile: Profile, axis: float, diameter: float, bottom: float) -> tuple[float, float, float, float]:
+    """xx, yy, zz and xz of a hole about z = `axis`, integrated as `fluxbore.geometry.part` does its volume."""
+    radius = diameter / 2
+    inside = {math.asin((z - axis) / radius) for _, z in profile if abs(z - axis) < radius}
+    second = across = along = skew = 0.0
     for low, high in itertools.pairwise(sorted({-math.pi / 2, 0.0, math.pi / 2, *inside})):
-        passed = crossed(profile, hole.z + radius * math.sin((low + high) / 2))
+        passed = crossed(profile, axis + radius * math.sin((low + high) / 2))
         for node, weight in zip(_NODES, _WEIGHTS, strict=True):
             angle = (low + high) / 2 + node * (high - low) / 2
-            half, z = radius * math.cos(angle), hole.z + radius * math.sin(angle)
+            half, z = radius * math.cos(angle), axis + radius * math.sin(angle)
             step = weight * (high - low) / 2 * half
             for count, edge in enumerate(passed):
-                plain, first, second, across = _chord(at(edge, z), half, bottom)
+                area, first, cube, square = _chord(at(edge, z), half, bottom)
                 sign = step if count % 2 else -step
-                found += sign * np.array([second, across, z * z * plain, z * first])
-    xx, yy, zz, xz = found.tolist()
+                second += sign * cube
+                across += sign * square
+                along += sign * z * z * area
+                skew += sign * z * first
+    return second, across, along, skew
+
+
+def _tensor(moments: tuple[float, float, float, float]) -> Tensor:
+    xx, yy, zz, xz = moments
     return np.array([[xx, 0.0, xz], [0.0, yy, 0.0], [xz, 0.0, zz]])
 
 

@@ -80,11 +80,9 @@ def _turned(cq: ModuleType, part: Part, opening: float) -> cadquery.Solid:
     ]
     wire = cq.Wire.makePolygon(corners, close=True)
     body = cq.Solid.revolve(wire, [], 360 - math.degrees(opening), cq.Vector(0, 0, 0), cq.Vector(0, 0, 1))
-    for hole in part.holes:
-        body = _one_solid(body.cut(_drill(cq, part, hole)), part)
-    for beside in part.axial_holes:
-        body = _one_solid(body.cut(_axial_drill(cq, beside)), part)
-    return _one_solid(body, part)
+    drills = [_drill(cq, part, hole) for hole in part.holes] + [_axial_drill(cq, hole) for hole in part.axial_holes]
+    # All at once: that takes a fraction of the time of one after the other.
+    return _one_solid(body.cut(*drills) if drills else body, part)
 
 
 def is_closed(body: cadquery.Shape) -> bool:
