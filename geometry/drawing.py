@@ -28,7 +28,7 @@ from fluxbore.geometry.parts_list import Item as Line
 from fluxbore.geometry.parts_list import parts_list
 from fluxbore.geometry.sheet import Dimension, Item, Sheet, bounds, moved
 from fluxbore.geometry.sheet_dimension import ROW, apart, linear
-from fluxbore.geometry.sheet_frame import SCALES, TITLE_HEIGHT, TITLE_WIDTH, TitleWords, frame, inner, notes
+from fluxbore.geometry.sheet_frame import SCALES, TITLE_HEIGHT, TITLE_WIDTH, TitleWords, frame, inner, mass_text, notes
 from fluxbore.geometry.sheet_view import MM, Section, on_paper, section_of, section_view
 
 SIZE = "A3"
@@ -68,7 +68,7 @@ def assembly_sheet(assembly: Assembly, items: Sequence[Line], page: Page | None 
         block.part_number,
         block.drawing_number,
         "see the parts list",
-        format_quantity(sum(item.mass * item.count for item in items), "mass", 4),
+        mass_text(sum(item.mass * item.count for item in items)),
         str(page or Page()),
     )
     remarks = [*_remarks(assembly), *(["Parts list: see the next sheet."] if elsewhere else [])]

@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from fluxbore.design.units import format_quantity
 from fluxbore.geometry.parts_list import Item as Line
 from fluxbore.geometry.sheet import Box, Circle, Item, Place, Stroke, Text
 from fluxbore.geometry.sheet_dimension import spread
-from fluxbore.geometry.sheet_frame import TABLE_ROW, TITLE_HEIGHT, TITLE_WIDTH, table
+from fluxbore.geometry.sheet_frame import TABLE_ROW, TITLE_HEIGHT, TITLE_WIDTH, mass_text, table
 from fluxbore.geometry.sheet_text import LARGE
 from fluxbore.geometry.sheet_view import MM, Section
 
@@ -38,7 +37,7 @@ def cells(items: Sequence[Line]) -> list[tuple[str, ...]]:
             item.name,
             item.part.material or "envelope only",
             item.part_number,
-            format_quantity(item.mass, "mass", 4) if item.part.material else "",
+            mass_text(item.mass) if item.part.material else "",
             item.part.bought or item.part.note,
         )
         for item in items

@@ -10,7 +10,6 @@ from dataclasses import dataclass
 
 from fluxbore.design.errors import DesignError
 from fluxbore.design.title_block import TitleBlock
-from fluxbore.design.units import format_quantity
 from fluxbore.geometry.drawing import Page
 from fluxbore.geometry.helical_part import HelicalPart
 from fluxbore.geometry.hole_table import hole_table, table_height
@@ -21,7 +20,7 @@ from fluxbore.geometry.part_views import alone, part_views, standing
 from fluxbore.geometry.parts_list import Item as Line
 from fluxbore.geometry.sheet import Item, Place, Sheet, bounds, moved
 from fluxbore.geometry.sheet_dimension import number
-from fluxbore.geometry.sheet_frame import SCALES, TITLE_HEIGHT, TITLE_WIDTH, TitleWords, frame, inner, notes
+from fluxbore.geometry.sheet_frame import SCALES, TITLE_HEIGHT, TITLE_WIDTH, TitleWords, frame, inner, mass_text, notes
 from fluxbore.geometry.sheet_view import MM, Section
 
 CLEAR = 3.0
@@ -51,7 +50,7 @@ def part_sheet(item: Line, block: TitleBlock, name: str, page: Page | None = Non
         item.part_number,
         item.drawing_number,
         part.material or "envelope only",
-        format_quantity(item.mass, "mass", 4) if part.material else "",
+        mass_text(item.mass) if part.material else "",
         str(page or Page()),
     )
     left, low, right, _ = inner(chosen.size)

@@ -54,6 +54,12 @@ def scale_text(scale: float) -> str:
     return f"{scale:.6g}:1" if scale >= 1 else f"1:{1 / scale:.6g}"
 
 
+def mass_text(mass: float) -> str:
+    """Of kilograms: "131.7 g" or "2.43 kg"."""
+    unit, _ = next(pair for pair in (("t", 1e4), ("kg", 1.0), ("g", 0.0)) if mass >= pair[1])
+    return f"{mass / {'t': 1e3, 'kg': 1.0, 'g': 1e-3}[unit]:.4g} {unit}"
+
+
 def frame(size: str, block: TitleBlock, words: TitleWords, scale: float | None) -> list[Item]:
     """Frame, centring marks and title block. scale : None where nothing is drawn to one."""
     left, low, right, high = inner(size)

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fluxbore.design.spec import Spec
+from fluxbore.design.winding_chart import WindingChart
 from fluxbore.geometry.assembly import Assembly
 from fluxbore.optimize.benchmark import BenchmarkResult
 from fluxbore.optimize.evaluation import Evaluation
@@ -113,6 +114,7 @@ class ReportContent:
         own checks are shown.
     one_at_a_time : the best of each variable's own sweep put together, evaluated.
     slots : the slotted-slotless comparison by the network.
+    winding : the chart of its coils, where it has any.
     assembly : the design's parts where they stand; drawn in section. model : the same as GLB, for the live view.
     checked, not_checked : sentences; what the page itself can see (residuals, the two routes) it adds.
     provenance : label -> text: versions, hashes, date, mesh, command.
@@ -138,6 +140,7 @@ class ReportContent:
     slots: SlotComparison | None = None
     parts: tuple[PartRow, ...] = ()
     assembly: Assembly | None = None
+    winding: WindingChart | None = None
     picture: Picture | None = None
     model: bytes | None = None
     checked: tuple[str, ...] = ()

@@ -39,6 +39,7 @@ from fluxbore.reports.scripts import Data, Script, load
 from fluxbore.reports.svg import Drawing
 from fluxbore.reports.template import fill
 from fluxbore.reports.viewer import viewer
+from fluxbore.reports.winding import winding_section
 from fluxbore.reports.wording import capital, duration, greek, key_label, symbol
 
 
@@ -136,6 +137,7 @@ def _context(content: ReportContent, designs: Mapping[str, Any] | None) -> Mappi
         "slots": curves.slot_curve(content.slots) if content.slots is not None else None,
         "slots_note": content.slots.note if content.slots is not None else "",
         "parts": tables.parts(content.parts),
+        "winding": winding_section(content.winding),
         "seen": story.seen(content),
         "checked": [text for text in content.checked if text not in warnings],
         "not_checked": content.not_checked,

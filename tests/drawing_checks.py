@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from itertools import combinations
 from typing import Any
 
+import numpy as np
 import pytest
 
 from fluxbore.geometry.outline import edges
@@ -22,14 +23,14 @@ def check_texts(sheet: Sheet) -> None:
     """No text over another, none beyond the frame."""
     left, low, right, high = inner(sheet.size)
     texts = texts_of(sheet.items)
-    for text in texts:
-        x0, y0, x1, y1 = text.box
-        assert left <= x0 < x1 <= right, (sheet.title, text.text)
-        assert low <= y0 < y1 <= high, (sheet.title, text.text)
-    for one, other in combinations(texts, 2):
-        a, b = one.box, other.box
-        along, across = min(a[2], b[2]) - max(a[0], b[0]), min(a[3], b[3]) - max(a[1], b[1])
-        assert min(along, across) < 0.05, (sheet.title, one.text, other.text)
+    x0, y0, x1, y1 = np.array([text.box for text in texts]).T
+    beyond = (x0 < left) | (y0 < low) | (x1 > right) | (y1 > high)
+    assert not beyond.any(), (sheet.title, [texts[i].text for i in np.flatnonzero(beyond)])
+    for i, text in enumerate(texts):
+        along = np.minimum(x1[i], x1[:i]) - np.maximum(x0[i], x0[:i])
+        across = np.minimum(y1[i], y1[:i]) - np.maximum(y0[i], y0[:i])
+        hit = np.flatnonzero((along > 0.05) & (across > 0.05))
+        assert not hit.size, (sheet.title, text.text, [texts[j].text for j in hit])
 
 
 Sizes = dict[str, tuple[str, float]]

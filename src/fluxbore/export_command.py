@@ -11,7 +11,7 @@ from fluxbore.spec_options import path_name, read_spec, with_spec
 if TYPE_CHECKING:
     from fluxbore.geometry.standing import Standing
 
-FORMATS = ("step", "bom", "dxf", "svg", "pdf", "fem", "vtu", "glb", "stl", "3mf", "all")
+FORMATS = ("step", "bom", "dxf", "svg", "pdf", "winding", "fem", "vtu", "glb", "stl", "3mf", "all")
 """As in `fluxbore.exporting`, which is not loaded for --help."""
 
 

@@ -20,6 +20,7 @@ from fluxbore.geometry.assembly import Assembly
 from fluxbore.geometry.file_names import file_name
 from fluxbore.geometry.standing import Standing, standings
 from fluxbore.optimize.folder import Folder, open_folder
+from fluxbore.winding_views import CHARTS
 
 if TYPE_CHECKING:
     from fluxbore.fem.femm_model import FemmModel
@@ -101,6 +102,12 @@ def _pdf(job: Job) -> Contents:
     return pdf_files(job)
 
 
+def _winding(job: Job) -> Contents:
+    from fluxbore.drawing_formats import winding_files
+
+    return winding_files(job)
+
+
 def _bom(job: Job) -> Contents:
     from fluxbore.geometry.bill_of_materials import bill_of_materials
 
@@ -162,6 +169,9 @@ FORMATS: dict[str, Format] = {
     "bom": Format("bill of materials as CSV", _bom, parts=False),
     "dxf": Format("drawings of the whole and of every part that is made, as DXF", _dxf),
     "svg": Format("the same drawings as SVG", _svg),
+    "winding": Format(
+        "winding chart as CSV, SVG and PDF", _winding, lambda spec: spec.kind.name in CHARTS, parts=False
+    ),
     "pdf": Format("the same drawings as one PDF", _pdf),
     "fem": Format("FEMM model of the field", _fem, _has_field, parts=False),
     "vtu": Format("the field without current as VTU, for ParaView", _vtu, _has_field, parts=False),

@@ -12,6 +12,7 @@ from fluxbore.design_result import DesignResult
 from fluxbore.optimize.evaluate import evaluate as evaluate_design
 from fluxbore.optimize.evaluation import Evaluation
 from fluxbore.optimize.outcome import Candidate
+from fluxbore.winding_views import winding_chart
 
 REPORT_FILE = "report.html"
 
@@ -52,6 +53,7 @@ def write_report_file(
         slots=views.slots(final) if views.slots is not None else None,
         parts=gather.part_rows(final, parts),
         assembly=parts,
+        winding=winding_chart(final),
         model=gather.model(final, parts),
         picture=gather.picture(parts) if picture else Picture(None, "No picture was asked for."),
         checked=gather.checked(parts, views.words.squeeze),
