@@ -26,9 +26,8 @@ export function place(plane, direction, share, box) {
 
 export function cutMaterial(planes, slant, pitch) {
   const material = new MeshBasicMaterial({ side: BackSide, clippingPlanes: planes });
-  // Where two parts touch, the near one's inner face is in front.
+  // Where two parts touch, the near one's inner face is in front; by no more, for it must not show beyond an outline.
   material.polygonOffset = true;
-  material.polygonOffsetFactor = -1;
   material.polygonOffsetUnits = -4;
   material.onBeforeCompile = (shader) => {
     const hatch = HATCH.replace("SLANT", slant.toFixed(1)).replace("PITCH", pitch.toFixed(1));

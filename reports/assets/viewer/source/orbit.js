@@ -33,6 +33,7 @@ export class Orbit {
     const eye = new Vector3().setFromSpherical(this.place).normalize();
     this.camera.position.copy(eye);
     this.camera.lookAt(0, 0, 0);
+    this.camera.updateMatrix();
     const right = new Vector3().setFromMatrixColumn(this.camera.matrix, 0);
     const up = new Vector3().setFromMatrixColumn(this.camera.matrix, 1);
     const tall = Math.tan((this.camera.fov * Math.PI) / 360);

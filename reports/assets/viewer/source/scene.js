@@ -115,7 +115,7 @@ export class View {
     const cutting = section.direction !== "none";
     if (cutting) place(this.plane, section.direction, section.share, this.box);
     for (const group of this.groups) {
-      const own = cutting && (!section.only || section.only === group.member);
+      const own = cutting && section.share > 0 && (!section.only || section.only === group.member);
       group.face.clippingPlanes = own ? [this.plane] : [];
       group.outer.visible = !group.hidden;
       group.inner.visible = own && !group.hidden;
