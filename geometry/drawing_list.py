@@ -8,16 +8,16 @@ from typing import Any
 from fluxbore.geometry.parts_list import Item as Line
 from fluxbore.geometry.sheet import Box, Circle, Item, Place, Stroke, Text
 from fluxbore.geometry.sheet_dimension import spread
-from fluxbore.geometry.sheet_frame import TABLE_ROW, TITLE_HEIGHT, TITLE_WIDTH, mass_text, table
-from fluxbore.geometry.sheet_text import LARGE
+from fluxbore.geometry.sheet_frame import TITLE_HEIGHT, TITLE_WIDTH, mass_text, row_height, table
+from fluxbore.geometry.sheet_text import LARGE, SMALL, wrapped
 from fluxbore.geometry.sheet_view import MM, Section
 
-HEAD = ("no.", "pieces", "part", "material", "part number", "mass of one", "order as, or note")
-WIDTHS = (9.0, 12.0, 38.0, 30.0, 36.0, 19.0, 36.0)
+HEAD = ("no.", "pieces", "part", "material", "part number", "mass of one", "order as")
+WIDTHS = (8.0, 12.0, 37.0, 31.0, 30.0, 19.0, 43.0)
 """mm, in all the width of the title block."""
 
-ABOVE = 16
-"""Rows above the title block at most, so that there is room for the drawing."""
+ABOVE = 85.0
+"""mm of rows above the title block at most, so that there is room for the drawing."""
 
 REMARKS = 20.0
 """mm below the part of the table that stands beside the title block."""
@@ -26,6 +26,9 @@ BALLOON = 3.6
 """mm, radius of the circle around a number."""
 
 BALLOON_GAP = 9.0
+
+SMALLER = 0.8
+"""Of the height of a designation's text, so that fewer need a second line."""
 
 
 def cells(items: Sequence[Line]) -> list[tuple[str, ...]]:
@@ -38,7 +41,7 @@ def cells(items: Sequence[Line]) -> list[tuple[str, ...]]:
             item.part.material or "envelope only",
             item.part_number,
             mass_text(item.mass) if item.part.material else "",
-            item.part.bought or item.part.note,
+            "\n".join(wrapped(item.part.bought, (WIDTHS[-1] - 1.6) / SMALLER, SMALL)),
         )
         for item in items
     ]
@@ -49,26 +52,34 @@ def parts_table(items: Sequence[Line], area: Box) -> tuple[list[Item], bool]:
 
     The first rows stand above the title block and the rest to the left of it, both with a head.
     """
-    rows = cells(items)
-    beside = int((TITLE_HEIGHT + (ABOVE + 1) * TABLE_ROW - REMARKS) / TABLE_ROW) - 1
-    if len(rows) > ABOVE + beside:
+    left, low, right, _ = area
+    first, rest = _fitting(cells(items), ABOVE)
+    second, over = _fitting(rest, TITLE_HEIGHT + ABOVE - REMARKS)
+    if over:
         return [], True
-    (left, low, right, _), first = area, rows[:ABOVE]
-    corner = right - TITLE_WIDTH, low + TITLE_HEIGHT + (len(first) + 1) * TABLE_ROW
-    found = table([HEAD, *first], WIDTHS, corner)
-    if rest := rows[ABOVE:]:
-        found += table([HEAD, *rest], WIDTHS, (left + 6, low + REMARKS + (len(rest) + 1) * TABLE_ROW))
+    found = table([HEAD, *first], WIDTHS, (right - TITLE_WIDTH, low + TITLE_HEIGHT + _height([HEAD, *first])))
+    if second:
+        found += table([HEAD, *second], WIDTHS, (left + 6, low + REMARKS + _height([HEAD, *second])))
     return found, False
+
+
+def _height(rows: Sequence[Sequence[str]]) -> float:
+    return sum(row_height(row) for row in rows)
+
+
+def _fitting(rows: Sequence[tuple[str, ...]], room: float) -> tuple[list[tuple[str, ...]], list[tuple[str, ...]]]:
+    """The first rows that fit under a head into a height (mm), and the others."""
+    count = next((i for i in range(len(rows)) if _height([HEAD, *rows[: i + 1]]) > room), len(rows))
+    return list(rows[:count]), list(rows[count:])
 
 
 def list_pages(items: Sequence[Line], area: Box) -> list[list[Item]]:
     """The table on sheets of its own, in two columns, the right one above the title block."""
     left, low, right, high = area
-    long = int((high - low - 12) / TABLE_ROW) - 1
-    short = int((high - low - TITLE_HEIGHT - 12) / TABLE_ROW) - 1
     rows, pages = cells(items), []
     while rows:
-        first, second, rows = rows[:long], rows[long : long + short], rows[long + short :]
+        first, rows = _fitting(rows, high - low - 12)
+        second, rows = _fitting(rows, high - low - TITLE_HEIGHT - 12)
         page = table([HEAD, *first], WIDTHS, (left + 6, high - 6))
         if second:
             page += table([HEAD, *second], WIDTHS, (right - TITLE_WIDTH, high - 6))

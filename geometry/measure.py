@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from fluxbore.geometry.part import Body
 
 FEW = 6
-"""Parts that are measured one by one."""
+"""Parts that are measured one by one; of more only stator, mover and the whole, since parts have their own sheets."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,27 +63,35 @@ def diameter(name: str, radius: float, at: float, place: float) -> Measure:
 
 
 def overall(parts: Sequence[Body], gap: float) -> tuple[Measure, ...]:
-    """Length and diameter of every kind of part (m), for an assembly that says nothing of its own.
+    """Length and diameter of every part (m), or of the groups of many, for an assembly that says nothing of its own.
 
-    gap : between two lines across, to the left of the drawing (m). Of more than `FEW` parts the first of each role
-    stands for all; what is as long at the same place, or as wide, is measured once. What follows a helix has a
-    diameter, but a length only where there is nothing else: the plane need not pass its ends.
+    gap : between two lines across, to the left of the drawing (m). What is as long at the same place, or as wide, is
+    measured once. What follows a helix has a diameter, but a length only where there is nothing else: the plane need
+    not pass its ends.
     """
-    firsts: dict[str, Body] = {}
-    turned = any(not isinstance(part, HelicalPart) for part in parts)
+    groups: dict[str, list[Body]] = {}
     for part in parts:
-        firsts.setdefault(part.name if len(parts) <= FEW else part.role, part)
-    spans: dict[tuple[float, float], tuple[str, float]] = {}
+        groups.setdefault(part.name if len(parts) <= FEW else part.group, []).append(part)
+    if len(parts) > FEW:
+        groups["over all"] = list(parts)
+    turned = any(not isinstance(part, HelicalPart) for part in parts)
+    spans: dict[tuple[float, float], tuple[str, float, float]] = {}
     circles: dict[float, float] = {}
-    for name, part in firsts.items():
-        heights = [z for _, z in part.profile]
-        outer, at = max(part.profile)
-        if not isinstance(part, HelicalPart) or not turned:
-            spans.setdefault((min(heights), max(heights)), (f"length, {name}", outer))
+    for name, members in groups.items():
+        long = [part for part in members if not turned or not isinstance(part, HelicalPart)]
+        outer, at = max(point for part in members for point in part.profile)
+        if long:
+            points = [(z, r) for part in long for r, z in part.profile]
+            (low, _), (high, _) = min(points), max(points)
+            first, last = (max(r for z, r in points if z == end) for end in (low, high))
+            spans.setdefault((low, high), (f"length, {name}", first, last))
         circles.setdefault(outer, at)
     left = min(z for part in parts for _, z in part.profile)
     by_length = sorted(spans.items(), key=lambda item: item[0][1] - item[0][0])
     return (
-        *(along(name, low, high, outer, row) for row, ((low, high), (name, outer)) in enumerate(by_length, 1)),
+        *(
+            Measure(name, (low, -first), (high, -last), place=row)
+            for row, ((low, high), (name, first, last)) in enumerate(by_length, 1)
+        ),
         *(diameter("diameter", r, circles[r], left - gap * place) for place, r in enumerate(sorted(circles), 1)),
     )

@@ -6,13 +6,13 @@ Lengths in mm of the paper.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
 
 from fluxbore.design.errors import one_line
 from fluxbore.design.title_block import TitleBlock
 from fluxbore.geometry.sheet import Box, Circle, Item, Place, Stroke, Text
-from fluxbore.geometry.sheet_text import CAPTION, HEADING, LARGE, SMALL, fitted, text_width, wrapped
+from fluxbore.geometry.sheet_text import CAPTION, LARGE, SMALL, fitted, text_width, wrapped
 
 SIZES: dict[str, tuple[float, float]] = {"A4": (297.0, 210.0), "A3": (420.0, 297.0)}
 """Landscape."""
@@ -25,7 +25,8 @@ TITLE_WIDTH, TITLE_HEIGHT = 180.0, 36.0
 LINE = 4.4
 """Between the foot lines of two lines of notes."""
 
-TABLE_ROW = 5.0
+TABLE_ROW, TABLE_STEP = 5.0, 3.6
+"""Height of a row, and of each further line in it."""
 
 SCALES = (100.0, 50.0, 20.0, 10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001, 1e-4)
 """Of ISO 5455, from the largest."""
@@ -162,35 +163,34 @@ def notes(lines: Sequence[str], corner: Place, width: float, size: float = SMALL
 
 
 def table(cells: Sequence[Sequence[str]], widths: Sequence[float], corner: Place, size: float = SMALL) -> list[Item]:
-    """Rows under a head, from the upper left corner; what is too wide is shown smaller."""
+    """Rows from the upper left corner; a cell may have several lines. What is too wide is shown smaller."""
     x0, y0 = corner
-    height = TABLE_ROW * size / SMALL
-    right, bottom = x0 + sum(widths), y0 - height * len(cells)
-    items: list[Item] = [
-        Stroke("SHEET", ((x0, y0 - i * height), (right, y0 - i * height))) for i in range(len(cells) + 1)
-    ]
+    right = x0 + sum(widths)
+    levels = [y0]
+    for row in cells:
+        levels.append(levels[-1] - row_height(row, size))
+    items: list[Item] = [Stroke("SHEET", ((x0, y), (right, y))) for y in levels]
     x = x0
     for i, width in enumerate((*widths, 0.0)):
-        items.append(Stroke("SHEET", ((x, y0), (x, bottom))))
-        for number, row in enumerate(cells):
-            if i < len(row) and row[i]:
-                text, text_size = fitted(one_line(row[i]), width - 1.6, size, 0.7 * size)
-                items.append(Text(text, (x + 0.8, y0 - (number + 0.72) * height), text_size))
+        items.append(Stroke("SHEET", ((x, y0), (x, levels[-1]))))
+        for top, row in zip(levels, cells, strict=False):
+            lines = (
+                [fitted(one_line(line), width - 1.6, size, 0.7 * size) for line in row[i].split("\n")] if width else []
+            )
+            for number, (text, _) in enumerate(lines):
+                if text:
+                    foot = top - (0.72 * TABLE_ROW + number * TABLE_STEP) * size / SMALL
+                    items.append(Text(text, (x + 0.8, foot), min(least for _, least in lines)))
         x += width
     return items
 
 
-def heading(text: str, place: Place) -> Text:
-    """A line in the largest height."""
-    return Text(one_line(text), place, HEADING)
+def row_height(row: Sequence[str], size: float = SMALL) -> float:
+    """mm, by the cell with the most lines."""
+    return (TABLE_ROW + TABLE_STEP * max(cell.count("\n") for cell in row)) * size / SMALL
 
 
 def natural_widths(cells: Sequence[Sequence[str]], size: float = SMALL) -> list[float]:
     """Of the columns of a table, so that nothing needs to be smaller."""
     columns = max(len(row) for row in cells)
     return [max(text_width(row[i], size) for row in cells if i < len(row)) + 1.7 for i in range(columns)]
-
-
-def numbered(words: TitleWords, page: int, pages: int) -> TitleWords:
-    """With the sheet's number."""
-    return replace(words, page=f"{page} of {pages}")

@@ -186,9 +186,12 @@ def test_other_kinds_are_drawn_with_the_sizes_of_their_parts(name: str) -> None:
     found = assembly_of(other)
     measures = overall(found.parts, 1.0)
     spans = {round(measure.length, 9) for measure in measures}
-    longest = max(part.profile[2][1] - part.profile[0][1] for part in found.parts if len(part.profile) == 4)
-    widest = 2 * max(r for part in found.parts for r, _ in part.profile)
+    points = [point for part in found.parts for point in part.profile]
+    heights = [z for _, z in points]
+    longest, widest = max(heights) - min(heights), 2 * max(points)[0]
     assert {round(longest, 9), round(widest, 9)} <= spans
+    for measure in measures:
+        assert all((abs(y), z) in points for z, y in (measure.start, measure.end)), measure.name
     document = read(dxf_text(found, other.materials))
     assert sorted(entity.get_measurement() for entity in document.modelspace().query("DIMENSION")) == pytest.approx(
         sorted(measure.length / MM for measure in measures)
