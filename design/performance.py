@@ -165,6 +165,11 @@ class Performance(LeadScrewFigures, HydrostaticFigures):
     cylinder_safety: float | None = figure(
         "count", PRESSURE, "yield stress of the cylinder over its equivalent (von Mises) stress at the bore"
     )
+    cap_safety: float | None = figure(
+        "count",
+        PRESSURE,
+        "force at which the set screws of an end cap, or what holds them, yield over the pressure's push",
+    )
     bore_dilation: float | None = figure(
         "length",
         PRESSURE,

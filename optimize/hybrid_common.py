@@ -28,7 +28,7 @@ from fluxbore.design.spec import Spec
 from fluxbore.design.units import format_quantity
 from fluxbore.geometry.hybrid_parts import assembly
 from fluxbore.geometry.mass import envelope, part_masses, total
-from fluxbore.optimize import hybrid_seal
+from fluxbore.optimize import hybrid_caps, hybrid_seal
 from fluxbore.optimize.hybrid_gaps import gaps
 
 NOTABLE_FRACTION = 0.01
@@ -69,6 +69,7 @@ def common_figures(spec: Spec, actuator: HybridActuator) -> Performance:
         copper_loss=winding.copper_loss(resistance, current),
         hoop_stress=vessel.hoop_stress,
         cylinder_safety=vessel.safety,
+        cap_safety=hybrid_caps.safety(spec, actuator),
         bore_dilation=vessel.dilation,
         bore_clearance=None if vessel.dilation is None else clearance + vessel.dilation,
         buckling_force=column.critical_force(

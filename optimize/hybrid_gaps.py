@@ -13,6 +13,7 @@ _FIT = ((_LIP, ("thermal_expansion",)), (_TUBE, ("thermal_expansion",)))
 
 _DATA: dict[str, tuple[tuple[str, tuple[str, ...]], ...]] = {
     "cylinder_safety": ((_TUBE, ("yield_stress",)),),
+    "cap_safety": ((_TUBE, ("yield_stress",)), ("actuator.end_caps.material", ("yield_stress",))),
     "bore_dilation": ((_TUBE, ("young_modulus", "poisson_ratio")),),
     "bore_clearance": ((_TUBE, ("young_modulus", "poisson_ratio")),),
     "eddy_loss": ((_TUBE, ("resistivity",)),),
@@ -39,6 +40,7 @@ _FRICTION = ("seal_friction", "seal_friction_variation")
 
 _OTHERWISE = {
     "cylinder_safety": "operating_point.pressure does not load the cylinder",
+    "cap_safety": "no set screws hold the end caps, or operating_point.pressure does not push them",
     "shaft_safety": "nothing loads the shaft at operating_point.pressure and operating_point.peak_current",
     "buckling_safety": "nothing pushes on the shaft at operating_point.pressure and operating_point.peak_current",
     "sealing_margin": "operating_point.pressure leaves nothing to seal",

@@ -27,7 +27,12 @@ NEXT_TO_ZERO = 1e-4
 _USUAL = {"length": 1e-3}
 """Dimension -> a size (SI) for limits of zero on what is zero or unknown at the start; 1 where none stands here."""
 
-_LOADS = {"cylinder_safety": "hoop_stress", "shaft_safety": "shaft_stress", "buckling_safety": "shaft_stress"}
+_LOADS = {
+    "cylinder_safety": "hoop_stress",
+    "cap_safety": "hoop_stress",
+    "shaft_safety": "shaft_stress",
+    "buckling_safety": "shaft_stress",
+}
 """Factor of safety -> the stress (Pa) that it is held against."""
 
 Point = tuple[float, ...]

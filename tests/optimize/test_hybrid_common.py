@@ -26,8 +26,8 @@ FIELD = {
 }
 
 CLOSED = (
-    "hoop_stress", "cylinder_safety", "bore_dilation", "bore_clearance", "buckling_force", "seal_friction",
-    "fill_factor", "winding_layers", "winding_room", "yoke_wall", "cylinder_wall", "magnet_wall",
+    "hoop_stress", "cylinder_safety", "cap_safety", "bore_dilation", "bore_clearance", "buckling_force",
+    "seal_friction", "fill_factor", "winding_layers", "winding_room", "yoke_wall", "cylinder_wall", "magnet_wall",
 )  # fmt: skip
 
 FOLLOWING = (

@@ -88,11 +88,11 @@ def test_a_figure_that_is_not_known_counts_against_the_finite_elements_only():
     assert not check(limits, {}, Performance(stray_field=math.nan), "fem")[0].satisfied
 
 
-@pytest.mark.parametrize("figure", ["cylinder_safety", "shaft_safety", "buckling_safety"])
+@pytest.mark.parametrize("figure", ["cylinder_safety", "cap_safety", "shaft_safety", "buckling_safety"])
 def test_no_load_meets_every_limit_on_safety(figure):
     """Catches a cylinder without pressure that misses its factor of safety, and a rod that buckles under a pull."""
     (limit, above) = (Limit(figure, ">=", 3.0), Limit(figure, "<=", 9.0))
-    stress = "hoop_stress" if figure == "cylinder_safety" else "shaft_stress"
+    stress = "hoop_stress" if figure in ("cylinder_safety", "cap_safety") else "shaft_stress"
     held, missed = check([limit, above], {}, Performance(**{stress: 0.0}))
     assert (held.satisfied, held.value, held.active) == (True, None, False)
     assert not missed.satisfied
