@@ -8,17 +8,13 @@ from __future__ import annotations
 
 import math
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from fluxbore.design.errors import DesignError
 from fluxbore.design.units import format_quantity
-from fluxbore.geometry import unrolled
+from fluxbore.geometry import kernel, unrolled
 from fluxbore.geometry.helical_part import HelicalPart
-
-if TYPE_CHECKING:
-    import cadquery
-
-MILLIMETRE = 1e-3
+from fluxbore.geometry.kernel import MILLIMETRE, Shape
 
 WIDEST = 2 * math.pi / 3
 """rad. Of a cell; a face of half a turn or more would reach its cylinder's seam when a reader puts that elsewhere."""
@@ -42,12 +38,11 @@ class _Cell(NamedTuple):
     last: tuple[float, float]
 
 
-def helical_solid(part: HelicalPart) -> cadquery.Solid:
+def helical_solid(part: HelicalPart) -> Shape:
     """One closed solid, in mm; its validity and volume are the caller's to look at.
 
     Raises DesignError where the part is too thin for the kernel, which would crash, and where it leaves faces apart.
     """
-    import cadquery
     from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeSolid, BRepBuilderAPI_Sewing
     from OCP.BRepLib import BRepLib
     from OCP.TopAbs import TopAbs_ShapeEnum
@@ -63,7 +58,7 @@ def helical_solid(part: HelicalPart) -> cadquery.Solid:
         raise DesignError(f"The {part.name} must be one closed solid; the CAD kernel left its faces apart.")
     body = BRepBuilderAPI_MakeSolid(TopoDS.Shell_s(sewn)).Solid()
     BRepLib.OrientClosedSolid_s(body)
-    return cadquery.Solid(body)
+    return body
 
 
 def _check(part: HelicalPart) -> None:
@@ -150,8 +145,5 @@ def _edge(surface: Any, start: tuple[float, float], end: tuple[float, float]) ->
 
 def _end(radii: tuple[float, float], theta: float, span: tuple[float, float]) -> Any:
     """The flat face at a generator."""
-    import cadquery
-
     corners = [(radii[0], span[0]), (radii[1], span[0]), (radii[1], span[1]), (radii[0], span[1])]
-    points = [cadquery.Vector(r * math.cos(theta), r * math.sin(theta), z) for r, z in corners]
-    return cadquery.Face.makeFromWires(cadquery.Wire.makePolygon(points, close=True)).wrapped
+    return kernel.plane_face(kernel.polygon([(r * math.cos(theta), r * math.sin(theta), z) for r, z in corners]))

@@ -1,7 +1,7 @@
-"""Parts as solids of the CAD kernel (Open CASCADE, through cadquery), in millimetres, and as triangles for a picture.
+"""Parts as solids of the CAD kernel, in millimetres, and as triangles for a picture.
 
-cadquery takes seconds to import and wants libGL (see `gl_stand_in`), so it is imported inside the functions. Everything
-a solid must be, one body, valid, closed, of positive volume, is insisted upon here: boolean operations fail in silence.
+The kernel takes seconds to import and wants libGL (see `gl_stand_in`), so it is imported inside the functions. What a
+solid must be, one body, valid, closed, of positive volume, is insisted upon here: boolean operations fail in silence.
 """
 
 from __future__ import annotations
@@ -14,12 +14,12 @@ import numpy as np
 import numpy.typing as npt
 
 from fluxbore.design.errors import DesignError, MissingLibraryError
-from fluxbore.design.graphics import APT_LINE, has_gl
-from fluxbore.geometry import gl_stand_in
+from fluxbore.geometry import kernel
 from fluxbore.geometry.assembly import Assembly
 from fluxbore.geometry.helical_mesh import triangles
 from fluxbore.geometry.helical_part import HelicalPart
-from fluxbore.geometry.helical_solid import MILLIMETRE, helical_solid
+from fluxbore.geometry.helical_solid import helical_solid
+from fluxbore.geometry.kernel import MILLIMETRE, Shape
 from fluxbore.geometry.part import AxialHole, Body, Colour, Hole, Part, volume
 
 if TYPE_CHECKING:
@@ -45,9 +45,8 @@ class Mesh(NamedTuple):
 
 
 def load_cadquery() -> ModuleType:
-    """The cadquery module; MissingLibraryError says how to get what it lacks."""
-    if not has_gl() and not gl_stand_in.load():
-        raise MissingLibraryError(f"CAD needs the system library libGL.so.1; get it by: {APT_LINE}")
+    """The cadquery module, for whoever goes on with a solid; MissingLibraryError says how to get what it lacks."""
+    kernel.load_kernel()
     try:
         import cadquery
     except ImportError as error:
@@ -57,14 +56,21 @@ def load_cadquery() -> ModuleType:
 
 
 def solid(part: Body, opening: float = 0.0) -> cadquery.Solid:
-    """One valid closed solid, in mm.
+    """`shape` as cadquery has it."""
+    found: cadquery.Solid = load_cadquery().Solid(shape(part, opening))
+    return found
+
+
+def shape(part: Body, opening: float = 0.0) -> Shape:
+    """One valid closed solid of the kernel, in mm.
 
     opening : the sector from angle 0 (+x) to this one (rad) is left out of a revolution, for a look inside; what
-    follows a helix stays whole. Raises DesignError where the kernel does not make exactly one such body of the part.
+    follows a helix stays whole. Raises DesignError where the kernel does not make exactly one such body of the part,
+    MissingLibraryError without a kernel.
     """
-    cq = load_cadquery()
-    body = helical_solid(part) if isinstance(part, HelicalPart) else _turned(cq, part, opening)
-    if not body.isValid() or not is_closed(body) or not (found := kernel_volume(body)) > 0:
+    kernel.load_kernel()
+    body = helical_solid(part) if isinstance(part, HelicalPart) else _turned(part, opening)
+    if not kernel.is_valid(body) or not kernel.is_closed(body) or not (found := kernel.volume_of(body)) > 0:
         raise DesignError(f"The {part.name} must be one valid closed solid; the CAD kernel made an invalid one.")
     if isinstance(part, HelicalPart) and abs(found - (exact := volume(part))) > BALANCE * exact:
         raise DesignError(
@@ -73,34 +79,25 @@ def solid(part: Body, opening: float = 0.0) -> cadquery.Solid:
     return body
 
 
-def _turned(cq: ModuleType, part: Part, opening: float) -> cadquery.Solid:
-    corners = [
-        cq.Vector(r * math.cos(opening) / MILLIMETRE, r * math.sin(opening) / MILLIMETRE, z / MILLIMETRE)
-        for r, z in part.profile
-    ]
-    wire = cq.Wire.makePolygon(corners, close=True)
-    body = cq.Solid.revolve(wire, [], 360 - math.degrees(opening), cq.Vector(0, 0, 0), cq.Vector(0, 0, 1))
-    drills = [_drill(cq, part, hole) for hole in part.holes] + [_axial_drill(cq, hole) for hole in part.axial_holes]
-    # All at once: that takes a fraction of the time of one after the other.
-    return _one_solid(body.cut(*drills) if drills else body, part)
+def _turned(part: Part, opening: float) -> Shape:
+    c, s = math.cos(opening) / MILLIMETRE, math.sin(opening) / MILLIMETRE
+    face = kernel.plane_face(kernel.polygon([(r * c, r * s, z / MILLIMETRE) for r, z in part.profile]))
+    body = kernel.revolved(face, math.tau - opening)
+    drills = [_drill(part, hole) for hole in part.holes] + [_axial_drill(hole) for hole in part.axial_holes]
+    solids = kernel.solids_of(kernel.cut(body, drills) if drills else body)
+    if len(solids) != 1:
+        raise DesignError(f"The {part.name} must be one solid; its drillings leave {len(solids)}.")
+    return solids[0]
 
 
 def is_closed(body: cadquery.Shape) -> bool:
     """Whether every shell of the shape is watertight."""
-    from OCP.BRep import BRep_Tool
-
-    shells = body.Shells()
-    return bool(shells) and all(BRep_Tool.IsClosed_s(shell.wrapped) for shell in shells)
+    return kernel.is_closed(body.wrapped)
 
 
 def kernel_volume(body: cadquery.Shape) -> float:
-    """The kernel's volume (m^3), integrated adaptively: its quick rule is 1e-5 off where a drilling meets a bore."""
-    from OCP.BRepGProp import BRepGProp
-    from OCP.GProp import GProp_GProps
-
-    properties = GProp_GProps()
-    BRepGProp.VolumeProperties_s(body.wrapped, properties, 1e-9)
-    return float(properties.Mass()) * MILLIMETRE**3
+    """The kernel's volume (m^3), integrated adaptively."""
+    return kernel.volume_of(body.wrapped)
 
 
 def tessellate(assembly: Assembly, tolerance: float, cut_away: bool = False) -> list[Mesh]:
@@ -122,24 +119,15 @@ def tessellate(assembly: Assembly, tolerance: float, cut_away: bool = False) -> 
     return meshes
 
 
-def _drill(cq: ModuleType, part: Part, hole: Hole) -> cadquery.Solid:
+def _drill(part: Part, hole: Hole) -> Shape:
+    c, s = math.cos(hole.angle), math.sin(hole.angle)
     outside = 1.1 * max(r for r, _ in part.profile)
-    along = cq.Vector(math.cos(hole.angle), math.sin(hole.angle), 0)
-    start = along * (hole.bottom / MILLIMETRE) + cq.Vector(0, 0, hole.z / MILLIMETRE)
-    radius, length = hole.diameter / 2 / MILLIMETRE, (outside - hole.bottom) / MILLIMETRE
-    return cq.Solid.makeCylinder(radius, length, start, along)
+    start, bottom = hole.z / MILLIMETRE, hole.bottom / MILLIMETRE
+    length = outside / MILLIMETRE - bottom
+    return kernel.cylinder((bottom * c, bottom * s, start), (c, s, 0.0), hole.diameter / 2 / MILLIMETRE, length)
 
 
-def _axial_drill(cq: ModuleType, hole: AxialHole) -> cadquery.Solid:
-    x, y = hole.radius * math.cos(hole.angle), hole.radius * math.sin(hole.angle)
-    start = cq.Vector(x / MILLIMETRE, y / MILLIMETRE, hole.start / MILLIMETRE)
-    length = (hole.end - hole.start) / MILLIMETRE
-    return cq.Solid.makeCylinder(hole.diameter / 2 / MILLIMETRE, length, start, cq.Vector(0, 0, 1))
-
-
-def _one_solid(shape: cadquery.Shape, part: Part) -> cadquery.Solid:
-    """The only solid in a shape: a cut returns a compound, which may hold none or several."""
-    solids = shape.Solids()
-    if len(solids) != 1:
-        raise DesignError(f"The {part.name} must be one solid; its drillings leave {len(solids)}.")
-    return solids[0]
+def _axial_drill(hole: AxialHole) -> Shape:
+    radius, length = hole.radius / MILLIMETRE, (hole.end - hole.start) / MILLIMETRE
+    start = radius * math.cos(hole.angle), radius * math.sin(hole.angle), hole.start / MILLIMETRE
+    return kernel.cylinder(start, (0.0, 0.0, 1.0), hole.diameter / 2 / MILLIMETRE, length)

@@ -16,18 +16,15 @@ from fluxbore.design.title_block import TitleBlock
 from fluxbore.design.units import format_quantity
 from fluxbore.geometry.assembly import Assembly
 from fluxbore.geometry.file_names import PARTS, file_name, item_stems
+from fluxbore.geometry.kernel import Shape, load_kernel
 from fluxbore.geometry.part import Body
 from fluxbore.geometry.parts_list import Item
-from fluxbore.geometry.solid import solid, tessellate
+from fluxbore.geometry.solid import shape
 from fluxbore.geometry.step_products import Catalogue, tree
 from fluxbore.geometry.step_text import Header, with_header
 
 if TYPE_CHECKING:
-    import cadquery
-
     from fluxbore.geometry.step_document import Document
-
-__all__ = ["file_name", "step_texts", "tessellate"]
 
 
 def step_texts(
@@ -67,13 +64,12 @@ class _Writer:
         self._schema, self._title = schema, title
         self._time = datetime.now(UTC).isoformat(timespec="seconds")
         self._program = _program()
-        self._solids: dict[Body, cadquery.Solid] = {}
+        self._solids: dict[Body, Shape] = {}
 
     def document(self) -> Document:
-        from fluxbore.geometry.solid import load_cadquery
         from fluxbore.geometry.step_document import Document
 
-        load_cadquery()
+        load_kernel()
         return Document(self._solid)
 
     def text(self, document: Document, name: str, description: str) -> str:
@@ -84,10 +80,10 @@ class _Writer:
         text = named(document.text(self._schema), document.products, document.usages)
         return with_header(text, header)
 
-    def _solid(self, shape: Body) -> cadquery.Solid:
-        if shape not in self._solids:
-            self._solids[shape] = solid(shape)
-        return self._solids[shape]
+    def _solid(self, body: Body) -> Shape:
+        if body not in self._solids:
+            self._solids[body] = shape(body)
+        return self._solids[body]
 
 
 def _program() -> str:

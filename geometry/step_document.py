@@ -8,23 +8,19 @@ import tempfile
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from fluxbore.design.errors import OutputError
+from fluxbore.geometry.kernel import MILLIMETRE, Shape
 from fluxbore.geometry.part import Body, Colour
 from fluxbore.geometry.placement import Placement
 from fluxbore.geometry.step_products import Piece, Product, Tree
 
-if TYPE_CHECKING:
-    import cadquery
-
 SCHEMAS = {"AP242": "AP242DIS", "AP214": "AP214IS"}
 """What a STEP file may follow -> the kernel's word for it."""
 
-MILLIMETRE = 1e-3
-
-Solids = Callable[[Body], "cadquery.Solid"]
-"""The solid (mm) of a shape in its own frame, made once."""
+Solids = Callable[[Body], Shape]
+"""The kernel's solid (mm) of a shape in its own frame, made once."""
 
 
 class Document:
@@ -50,7 +46,7 @@ class Document:
         """The product of a piece, in the colour of the first that is asked for."""
         known = self._labels.get(piece.product)
         if known is None:
-            label = self._named(self._shapes.AddShape(self._solids(piece.shape).wrapped, False), piece.product)
+            label = self._named(self._shapes.AddShape(self._solids(piece.shape), False), piece.product)
             self._paint(label, piece.colour)
             known = self._labels[piece.product] = (label, piece.colour)
         return known

@@ -59,10 +59,10 @@ gl_stand_in._loads = lambda name, loads=gl_stand_in._loads: name not in gl_stand
 assert gl_stand_in.load()
 from fluxbore.geometry.outline import rectangle
 from fluxbore.geometry.part import Hole, Part
-from fluxbore.geometry import solid
-solid.has_gl = lambda: True
+from fluxbore.geometry import kernel, solid
+kernel.has_gl = lambda: True
 part = Part("b", "block", "stator", "steel", (0.2, 0.4, 0.6), rectangle(0, 0.01, 0, 0.02), (Hole(0.01, 0.002),))
-print(solid.kernel_volume(solid.solid(part)))
+print(kernel.volume_of(solid.shape(part)))
 maps = open("/proc/self/maps").read()
 assert "memfd:libGL.so.1" in maps and "memfd:libX11.so.6" in maps
 assert "/libGL.so" not in maps and "/libX11.so" not in maps

@@ -12,7 +12,7 @@ from fluxbore.design import graphics
 from fluxbore.design.errors import DesignError, MissingLibraryError
 from fluxbore.design.hybrid import HybridActuator
 from fluxbore.geometry import assembly as geometry
-from fluxbore.geometry import hybrid_parts, outline
+from fluxbore.geometry import hybrid_parts, kernel, outline
 from fluxbore.geometry import part as parts_of
 from fluxbore.geometry import solid as solids
 from fluxbore.geometry.outline import rectangle
@@ -119,14 +119,14 @@ def test_triangles_face_outwards_and_enclose_the_volume(cut_away: bool) -> None:
 
 
 def test_without_libgl_the_sentence_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(solids, "has_gl", lambda: False)
-    monkeypatch.setattr(solids.gl_stand_in, "load", lambda: False)
+    monkeypatch.setattr(kernel, "has_gl", lambda: False)
+    monkeypatch.setattr(kernel.gl_stand_in, "load", lambda: False)
     with pytest.raises(MissingLibraryError, match=r"libGL\.so\.1.*apt-get install .*libgl1"):
         solids.solid(part(rectangle(0, 1, 0, 1)))
 
 
 def test_without_cadquery_the_sentence_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(solids, "has_gl", lambda: True)
-    monkeypatch.setitem(__import__("sys").modules, "cadquery", None)
+    monkeypatch.setattr(kernel, "has_gl", lambda: True)
+    monkeypatch.setitem(__import__("sys").modules, "OCP.OCP", None)
     with pytest.raises(MissingLibraryError, match="pip install cadquery"):
         solids.solid(part(rectangle(0, 1, 0, 1)))
