@@ -99,6 +99,7 @@ def _context(content: ReportContent, designs: Mapping[str, Any] | None) -> Mappi
         "warnings": warnings,
         "tiles": study_tables.tiles(content),
         "requirements": study_tables.requirements(content),
+        "verdicts": study_tables.verdicts(content),
         "picture": picture,
         "picture_reason": content.picture.reason if content.picture is not None and picture is None else "",
         "section": drawn,

@@ -102,6 +102,18 @@ def requirements(content: ReportContent) -> Table | None:
     return Table("Requirements and whether the design meets them", head, tuple(rows), words=frozenset({1, 2}))
 
 
+def verdicts(content: ReportContent) -> tuple[Cell, ...]:
+    """Each requirement in a line, for the first screen: its mark, its value, its limit; the broken ones first."""
+    found = []
+    for check in sorted(content.design_checks, key=lambda check: check.satisfied):
+        scale = subject_scale(content.spec, check.limit.subject, [check.limit.limit, check.value])
+        shown = verdict(content.spec, check)
+        value = "" if check.value is None else f" {scale.quantity(check.value)}"
+        name = capital(subject_label(content.spec, check.limit.subject))
+        found.append(Cell(f"{shown.text[0]} {name}{value}, {limit_text(content.spec, check.limit)}", shown.tone))
+    return tuple(found)
+
+
 def verdict(spec: Spec, check: Check) -> Cell:
     """Whether a limit holds, in words; by how much it is broken, since rounded figures can look equal."""
     if check.unloaded:

@@ -25,7 +25,7 @@
   const region = fluxbore.element("div", { class: "scroll", role: "region", "aria-label": "Selected designs", tabindex: "0" });
   const hint = "Drag along an axis, or a rectangle in the scatter; or move an axis’s two grips with the arrow keys.";
   choices.append(chooser("Across", "x"), chooser("Up", "y"), reset);
-  side.append(choices, fluxbore.element("p", { class: "note" }, hint), told, region);
+  side.append(choices, fluxbore.element("p", { class: "note aside" }, hint), told, region);
 
   const grips = [...lines.querySelectorAll(".axis")].map(brushable);
   const rectangle = fluxbore.drawn(cloud, "rect", { class: "span" });

@@ -21,7 +21,8 @@
     fluxbore.fill(svg, { role: "application", tabindex: "0", "aria-roledescription": "map of the field",
       "aria-label": `${svg.getAttribute("aria-label")} Arrow keys move a probe.` }, []);
     const caption = svg.closest("figure").querySelector("figcaption");
-    caption.append(" Point at it, or move a probe with the arrow keys, to read the flux density.");
+    const hint = " Point at it, or move a probe with the arrow keys, to read the flux density.";
+    caption.append(fluxbore.element("span", { class: "aside" }, hint));
     let probe = null;
 
     async function show(map, z, r, aloud = false) {

@@ -319,3 +319,19 @@ def test_coils_are_not_called_a_machine(content: ReportContent) -> None:
         assert all(sentence.endswith(".") for sentence in kind.not_checked)
     assert HYBRID.not_checked
     assert set(HYBRID.not_checked).isdisjoint(COILS.not_checked)
+
+
+def test_the_first_screen_tells_each_requirement_the_broken_first(content: ReportContent) -> None:
+    """Catches a mark without its value, and a broken requirement below six that are met."""
+    checks = (
+        Check(Limit("force_constant", ">=", 8.0), 8.7, 0.09, True, False),
+        Check(Limit("total_mass", "<=", 0.5), 0.55, -0.1, False, False),
+        Check(Limit("shaft_safety", ">=", 2.0), None, 1.0, True, False),
+    )
+    found = study_tables.verdicts(ReportContent(spec=content.spec, start=content.start, checks=checks))
+    assert [cell.text.replace("\u00a0", " ") for cell in found] == [
+        "✗ Total mass 550.0 g, at most 500.0 g",
+        "✓ Force constant 8.700 N/A, at least 8.000 N/A",
+        "✓ Shaft safety, at least 2",
+    ]
+    assert [cell.tone for cell in found] == ["bad", "good", "good"]
