@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 
 from fluxbore.design.errors import DesignError
 from fluxbore.design.hybrid import BackYoke, Cylinder, EndCaps, HybridActuator, Mover, Piston, Shaft, Winding
+from fluxbore.design.screw_thread import SCREWS
 from fluxbore.geometry import assembly as geometry
 from fluxbore.geometry import hybrid_layout, hybrid_parts
 from fluxbore.geometry import part as parts_of
@@ -56,15 +57,30 @@ def actuators(draw: st.DrawFn) -> HybridActuator:
     clearance = between(0, 0.2) * (seat - rod) / 2
     port = between(0.05, 0.95) * math.sqrt(seat**2 - (rod + 2 * clearance) ** 2)
     flange = 1.2 * port + between(0.1 * MM, 20 * MM)
+    nose = draw(st.just(0.0) | st.floats(0.1 * MM, 60 * MM))
+    section, screw, screws = between(0.3 * MM, 4 * MM), draw(st.sampled_from(sorted(SCREWS))), draw(st.integers(0, 12))
     return HybridActuator(
         name="any",
         back_yoke=BackYoke(yoke + between(0.2 * MM, 20 * MM), yoke, overhang, between(0, 1) * overhang, "1010"),
         winding=Winding(coil, sets, sets, 0.05 * MM, "copper"),
         cylinder=Cylinder(tube, bore, bore, barrel, "aluminium 6061"),
         mover=Mover(pitch, ring, pole_pairs, magnet, "N48", 1.4, 1.05, "1010", stroke),
-        shaft=Shaft(rod, barrel + flange + between(0, 100 * MM), "stainless steel 304"),
+        shaft=Shaft(rod, barrel + flange + nose + between(0, 100 * MM), "stainless steel 304"),
         piston=Piston(length, fin_outer, fin_inner, fin_length, between(0.05, 0.8) * (room - 0.05 * MM), "POM"),
-        end_caps=EndCaps(tube + between(0.1 * MM, 40 * MM), flange, port, clearance, "aluminium 6061"),
+        end_caps=EndCaps(
+            tube + between(0.1 * MM, 40 * MM),
+            flange,
+            port,
+            clearance,
+            "aluminium 6061",
+            None,
+            nose,
+            section,
+            screw,
+            screws,
+            screw,
+            screws,
+        ),
     )
 
 
