@@ -1,4 +1,4 @@
-"""Parts as solids of the CAD kernel, in millimetres, and as triangles for a picture.
+"""Parts as solids of the CAD kernel, in millimetres.
 
 The kernel takes seconds to import and wants libGL (see `gl_stand_in`), so it is imported inside the functions. What a
 solid must be, one body, valid, closed, of positive volume, is insisted upon here: boolean operations fail in silence.
@@ -8,40 +8,20 @@ from __future__ import annotations
 
 import math
 from types import ModuleType
-from typing import TYPE_CHECKING, NamedTuple
-
-import numpy as np
-import numpy.typing as npt
+from typing import TYPE_CHECKING
 
 from fluxbore.design.errors import DesignError, MissingLibraryError
 from fluxbore.geometry import kernel
-from fluxbore.geometry.assembly import Assembly
-from fluxbore.geometry.helical_mesh import triangles
 from fluxbore.geometry.helical_part import HelicalPart
 from fluxbore.geometry.helical_solid import helical_solid
 from fluxbore.geometry.kernel import MILLIMETRE, Shape
-from fluxbore.geometry.part import AxialHole, Body, Colour, Hole, Part, volume
+from fluxbore.geometry.part import AxialHole, Body, Hole, Part, volume
 
 if TYPE_CHECKING:
     import cadquery
 
-QUARTER = math.pi / 2
-
 BALANCE = 1e-7
 """Relative difference of volumes at which a helical solid is not what its outline says."""
-
-ANGULAR_TOLERANCE = 0.1
-"""rad between neighbouring facets: 63 to a turn."""
-
-
-class Mesh(NamedTuple):
-    """Triangles of one part. vertices : (n, 3) in m; corners are repeated where faces meet, so that edges stay sharp.
-    triangles : (m, 3) indices into them, counter-clockwise from outside."""
-
-    name: str
-    colour: Colour
-    vertices: npt.NDArray[np.float64]
-    triangles: npt.NDArray[np.int64]
 
 
 def load_cadquery() -> ModuleType:
@@ -55,21 +35,20 @@ def load_cadquery() -> ModuleType:
     return module
 
 
-def solid(part: Body, opening: float = 0.0) -> cadquery.Solid:
+def solid(part: Body) -> cadquery.Solid:
     """`shape` as cadquery has it."""
-    found: cadquery.Solid = load_cadquery().Solid(shape(part, opening))
+    found: cadquery.Solid = load_cadquery().Solid(shape(part))
     return found
 
 
-def shape(part: Body, opening: float = 0.0) -> Shape:
+def shape(part: Body) -> Shape:
     """One valid closed solid of the kernel, in mm.
 
-    opening : the sector from angle 0 (+x) to this one (rad) is left out of a revolution, for a look inside; what
-    follows a helix stays whole. Raises DesignError where the kernel does not make exactly one such body of the part,
-    MissingLibraryError without a kernel.
+    Raises DesignError where the kernel does not make exactly one such body of the part, MissingLibraryError without a
+    kernel.
     """
     kernel.load_kernel()
-    body = helical_solid(part) if isinstance(part, HelicalPart) else _turned(part, opening)
+    body = helical_solid(part) if isinstance(part, HelicalPart) else _turned(part)
     if not kernel.is_valid(body) or not kernel.is_closed(body) or not (found := kernel.volume_of(body)) > 0:
         raise DesignError(f"The {part.name} must be one valid closed solid; the CAD kernel made an invalid one.")
     if isinstance(part, HelicalPart) and abs(found - (exact := volume(part))) > BALANCE * exact:
@@ -79,10 +58,9 @@ def shape(part: Body, opening: float = 0.0) -> Shape:
     return body
 
 
-def _turned(part: Part, opening: float) -> Shape:
-    c, s = math.cos(opening) / MILLIMETRE, math.sin(opening) / MILLIMETRE
-    face = kernel.plane_face(kernel.polygon([(r * c, r * s, z / MILLIMETRE) for r, z in part.profile]))
-    body = kernel.revolved(face, math.tau - opening)
+def _turned(part: Part) -> Shape:
+    corners = [(r / MILLIMETRE, 0.0, z / MILLIMETRE) for r, z in part.profile]
+    body = kernel.revolved(kernel.plane_face(kernel.polygon(corners)), math.tau)
     drills = [_drill(part, hole) for hole in part.holes] + [_axial_drill(hole) for hole in part.axial_holes]
     solids = kernel.solids_of(kernel.cut(body, drills) if drills else body)
     if len(solids) != 1:
@@ -98,25 +76,6 @@ def is_closed(body: cadquery.Shape) -> bool:
 def kernel_volume(body: cadquery.Shape) -> float:
     """The kernel's volume (m^3), integrated adaptively."""
     return kernel.volume_of(body.wrapped)
-
-
-def tessellate(assembly: Assembly, tolerance: float, cut_away: bool = False) -> list[Mesh]:
-    """Triangles of every part, in the assembly's order, no farther than ``tolerance`` (m) from the surface.
-
-    cut_away : the group outside lacks the quarter from +x to +y, whose first face shows the ports cut; the other stays
-    whole. A part of which nothing is left then has no triangles.
-    """
-    meshes = []
-    for part in assembly.parts:
-        opening = QUARTER if cut_away and part.group == assembly.outside else 0.0
-        if isinstance(part, HelicalPart):
-            meshes.append(Mesh(part.name, part.colour, *triangles(part, tolerance, ANGULAR_TOLERANCE, opening)))
-            continue
-        body = solid(part, opening)
-        vertices, corners = body.tessellate(tolerance / MILLIMETRE, ANGULAR_TOLERANCE)
-        points = np.array([vertex.toTuple() for vertex in vertices], dtype=np.float64) * MILLIMETRE
-        meshes.append(Mesh(part.name, part.colour, points, np.array(corners, dtype=np.int64)))
-    return meshes
 
 
 def _drill(part: Part, hole: Hole) -> Shape:

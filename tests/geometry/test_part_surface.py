@@ -80,7 +80,10 @@ def test_points_lie_on_the_true_surface() -> None:
 
 
 def test_a_quarter_is_cut_out() -> None:
-    """Three quarters are left, closed again, and nothing stands in the opening."""
+    """Three quarters are left, closed again, with the drillings that are not in the opening."""
+    drilled = turned(TUBE, holes=(Hole(10 * MM, 3 * MM, 2.5), Hole(20 * MM, 2 * MM, -1.0, 9 * MM)))
+    left = volume(drilled) - 0.25 * volume(turned(TUBE))
+    assert closed_volume(surface(drilled, FINE, cut_open=True)) == pytest.approx(left, rel=2e-4)
     part = PARTS["drilled along"]
     whole = closed_volume(surface(turned(FLANGED), FINE))
     assert closed_volume(surface(turned(FLANGED), FINE, cut_open=True)) == pytest.approx(0.75 * whole, rel=1e-9)

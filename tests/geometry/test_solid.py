@@ -4,14 +4,12 @@ import dataclasses
 import math
 from typing import Any
 
-import numpy as np
 import pytest
 from actuators import table_ii
 
 from fluxbore.design import graphics
 from fluxbore.design.errors import DesignError, MissingLibraryError
 from fluxbore.design.hybrid import HybridActuator
-from fluxbore.geometry import assembly as geometry
 from fluxbore.geometry import hybrid_parts, kernel, outline
 from fluxbore.geometry import part as parts_of
 from fluxbore.geometry import solid as solids
@@ -89,33 +87,6 @@ def test_drillings_that_cut_a_part_in_two_are_refused() -> None:
     sawn = part(rectangle(0, 0.005, 0, 0.03), Hole(0.015, 0.012), Hole(0.015, 0.012, math.pi))
     with pytest.raises(DesignError, match="block must be one solid; its drillings leave 2"):
         solids.solid(sawn)
-
-
-@needs_gl
-def test_an_opening_takes_its_share_of_the_revolution() -> None:
-    """A quarter left out leaves three quarters of a turned part, in the other three quadrants."""
-    ring = part(rectangle(0.004, 0.008, 0, 0.01))
-    for opening, left in ((math.pi / 2, 0.75), (math.pi, 0.5)):
-        body = solids.solid(ring, opening)
-        assert solids.kernel_volume(body) == pytest.approx(left * parts_of.volume(ring), rel=1e-9)
-    meshes = solids.tessellate(geometry.Assembly("a", (ring,), 0.0), 1e-5, cut_away=True)
-    middles = meshes[0].vertices[meshes[0].triangles].mean(axis=1)
-    assert not ((middles[:, 0] > 1e-6) & (middles[:, 1] > 1e-6)).any()
-
-
-@needs_gl
-@pytest.mark.parametrize("cut_away", [False, True])
-def test_triangles_face_outwards_and_enclose_the_volume(cut_away: bool) -> None:
-    """By the divergence theorem; catches metres for millimetres, a face turned round and a face left out."""
-    whole = hybrid_parts.assembly(table_ii(), 0.02)
-    chosen = tuple(one for one in whole.parts if one.role in ("end cap", "piston", "shaft"))
-    meshes = solids.tessellate(dataclasses.replace(whole, parts=chosen), 1e-5, cut_away)
-    assert [(mesh.name, mesh.colour) for mesh in meshes] == [(one.name, one.colour) for one in chosen]
-    for mesh, one in zip(meshes, chosen, strict=True):
-        a, b, c = (mesh.vertices[mesh.triangles[:, i]] for i in range(3))
-        enclosed = float(np.einsum("ij,ij->", a, np.cross(b, c))) / 6
-        body = solids.solid(one, math.pi / 2 if cut_away and one.group == "stator" else 0.0)
-        assert enclosed == pytest.approx(solids.kernel_volume(body), rel=5e-3)
 
 
 def test_without_libgl_the_sentence_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
