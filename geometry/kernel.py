@@ -23,13 +23,15 @@ Place = tuple[float, float, float]
 
 
 def load_kernel() -> None:
-    """Raises MissingLibraryError, which says how to get what is missing."""
+    """Import the kernel, and keep it from chatting. Raises MissingLibraryError: how to get what is missing."""
     if not has_gl() and not gl_stand_in.load():
         raise MissingLibraryError(f"CAD needs the system library libGL.so.1; get it by: {APT_LINE}")
     try:
-        import OCP.OCP  # noqa: F401
+        from OCP.Message import Message, Message_Gravity
     except ImportError as error:
         raise MissingLibraryError(f"CAD needs cadquery ({error}); get it by: pip install cadquery") from error
+    for printer in Message.DefaultMessenger_s().Printers():
+        printer.SetTraceLevel(Message_Gravity.Message_Fail)
 
 
 def polygon(corners: Sequence[Place]) -> Shape:

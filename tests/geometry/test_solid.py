@@ -98,6 +98,6 @@ def test_without_libgl_the_sentence_says_what_to_install(monkeypatch: pytest.Mon
 
 def test_without_cadquery_the_sentence_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(kernel, "has_gl", lambda: True)
-    monkeypatch.setitem(__import__("sys").modules, "OCP.OCP", None)
+    monkeypatch.setitem(__import__("sys").modules, "OCP.Message", None)
     with pytest.raises(MissingLibraryError, match="pip install cadquery"):
         solids.solid(part(rectangle(0, 1, 0, 1)))
