@@ -27,7 +27,7 @@ from fluxbore.geometry.measure import Measure, overall
 from fluxbore.geometry.parts_list import Item as Line
 from fluxbore.geometry.parts_list import parts_list
 from fluxbore.geometry.sheet import Dimension, Item, Sheet, bounds, moved
-from fluxbore.geometry.sheet_dimension import ROW, apart, linear
+from fluxbore.geometry.sheet_dimension import LEAST, ROW, apart, linear, spread
 from fluxbore.geometry.sheet_frame import SCALES, TITLE_HEIGHT, TITLE_WIDTH, TitleWords, frame, inner, mass_text, notes
 from fluxbore.geometry.sheet_view import MM, Section, on_paper, section_of, section_view
 
@@ -128,8 +128,11 @@ def _row(place: float, reach: float) -> float:
 
 def _columns(places: Sequence[float], low: float, high: float) -> list[float]:
     """x of the lines across; those that are meant to stand outside of the drawing do so in the same order, a row's
-    width from one another at whatever scale."""
+    width from one another at whatever scale, and those within have room for their texts."""
     result = list(places)
+    within = sorted((x, i) for i, x in enumerate(places) if low <= x <= high)
+    for (_, i), x in zip(within, spread([x for x, _ in within], LEAST), strict=True):
+        result[i] = x
     for side, edge in ((-1, low), (1, high)):
         outside = sorted((x * side, i) for i, x in enumerate(places) if (x - edge) * side > 0)
         for number, (_, i) in enumerate(outside, 1):

@@ -23,7 +23,7 @@ def detail_view(section: Section, detail: Detail, scale: float) -> tuple[list[It
     items = [*_cut_out(section, detail, larger), Circle("EDGES", (0.0, 0.0), radius)]
     items += [_dimension(measure, detail, scale, larger) for measure in detail.measures]
     name = f"{detail.name} ({scale_text(larger)})"
-    items.append(Text(name, (0.0, radius + 3), LARGE, "middle"))
+    items.append(Text(name, (0.0, -radius - LARGE - 2), LARGE, "middle"))
     ((z, y),) = on_paper([detail.centre], scale)
     around = 1.1 * detail.reach * MM * scale
     marks: list[Item] = [

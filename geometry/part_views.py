@@ -86,12 +86,12 @@ def _lengths(part: Part, groups: Sequence[HoleGroup], scale: float) -> list[Item
     reach = max(r for r, _ in part.profile) * factor
     below: list[Station] = []
     above: list[Station] = []
-    for level in levels(part):
+    for count, level in enumerate(levels(part), 1):
         side = above if level.inner else below
         sign = 1 if level.inner else -1
         side.append(
             Station(
-                f"length {number(level.z * MM)}",
+                f"length {count}",
                 (level.z * factor, sign * level.r * factor),
                 level.z * MM,
                 _length_fit(part, level.z),
@@ -99,12 +99,12 @@ def _lengths(part: Part, groups: Sequence[HoleGroup], scale: float) -> list[Item
         )
     for group in groups:
         z, letter = _height(group), group.letter
-        same = next((i for i, station in enumerate(above) if abs(station.value - z * MM) < ALIKE * MM), None)
-        if same is not None:
-            above[same] = replace(above[same], after=f"{above[same].after}, {letter}".lstrip(", "))
+        row, place = _told(z, above, below)
+        if place is not None:
+            row[place] = replace(row[place], after=f"{row[place].after}, {letter}".lstrip(", "))
         elif isinstance(group.first, Hole):
             above.append(Station(f"place of {letter}", (z * factor, reach), z * MM, letter))
-        elif all(abs(level.z - z) > ALIKE for level in levels(part)) and z > ALIKE:
+        elif z > ALIKE:
             above.append(Station(f"end of {letter}", (z * factor, group.first.radius * factor), z * MM, letter))
     left = min(r for r, z in part.profile if z < ALIKE) * factor
     over = reach + 3 + CHAMFER_ROW * len(chamfers(part))
@@ -112,6 +112,15 @@ def _lengths(part: Part, groups: Sequence[HoleGroup], scale: float) -> list[Item
         *_row(below, (0.0, -max(r for r, z in part.profile if z < ALIKE) * factor), -reach - 3),
         *_row(above, (0.0, left), over),
     ]
+
+
+def _told(z: float, *rows: list[Station]) -> tuple[list[Station], int | None]:
+    """The row and the place in it where this height (m) is told already; None where it is not."""
+    for row in rows:
+        for place, station in enumerate(row):
+            if abs(station.value - z * MM) < ALIKE * MM:
+                return row, place
+    return rows[0], None
 
 
 def _height(group: HoleGroup) -> float:
@@ -158,21 +167,21 @@ def _diameters(
         moving = min(sides[many], key=lambda item: -many * (item.low + item.high))
         sides[many].remove(moving)
         sides[-many].append(moving)
+    names = {item.r: f"diameter {count}" for count, item in enumerate(found, 1)}
     items: list[Item] = []
     for side, members in sides.items():
         edge = 0.0 if side < 0 else high * factor
         for row, item in enumerate(sorted(members, key=lambda item: item.r), 1):
-            z = (item.low if side < 0 else item.high) * factor
-            items.append(_diameter(part, item, z, edge + side * (3 + ROW * row), factor))
+            z = item.low if side < 0 else item.high
+            items.append(_diameter(part, names[item.r], item.r, z * factor, edge + side * (3 + ROW * row), factor))
     return items
 
 
-def _diameter(part: Part, item: Diameter, z: float, line: float, factor: float) -> Dimension:
-    size = 2 * item.r
+def _diameter(part: Part, name: str, radius: float, x: float, line: float, factor: float) -> Dimension:
+    size, r = 2 * radius, radius * factor
     words = _fit(part, size)
     label = f"Ø<> {words}" if words else "Ø<>"
-    r = item.r * factor
-    return linear(f"diameter {number(size * MM)}", (z, -r), (z, r), line, size * MM, across=True, label=label)
+    return linear(name, (x, -r), (x, r), line, size * MM, across=True, label=label)
 
 
 def _fit(part: Part, size: float) -> str:
@@ -190,10 +199,13 @@ def _chamfers(part: Part, scale: float) -> list[Item]:
     """A leader from one of each size to above the part, with how many of them there are."""
     factor = MM * scale
     reach = max(r for r, _ in part.profile) * factor
-    return [_chamfer(item, factor, reach + 3 + CHAMFER_ROW * row) for row, item in enumerate(chamfers(part))]
+    return [
+        _chamfer(f"chamfer {row + 1}", item, factor, reach + 3 + CHAMFER_ROW * row)
+        for row, item in enumerate(chamfers(part))
+    ]
 
 
-def _chamfer(item: Chamfer, factor: float, height: float) -> Dimension:
+def _chamfer(name: str, item: Chamfer, factor: float, height: float) -> Dimension:
     (r0, z0), (r1, z1) = item.cylinder, item.face
     start = ((z0 + z1) / 2 * factor, (r0 + r1) / 2 * factor)
     way = 1 if z0 > z1 else -1  # towards the middle of the cylinder
@@ -203,7 +215,7 @@ def _chamfer(item: Chamfer, factor: float, height: float) -> Dimension:
     shown = Text(label.replace("<>", number(item.size * MM)), foot, SMALL, anchor, 0, LAYER)
     ends = ((z0 * factor, r0 * factor), (z1 * factor, r0 * factor))
     leader = Stroke(LAYER, (start, knee))
-    return Dimension(f"chamfer {number(item.size * MM)}", "along", ends, knee[1], label, shown, (leader,))
+    return Dimension(name, "along", ends, knee[1], label, shown, (leader,))
 
 
 def _letters(part: Part, groups: Sequence[HoleGroup], scale: float) -> list[Item]:
@@ -234,8 +246,10 @@ def _helical_view(part: HelicalPart, section: Section, scale: float) -> list[Ite
         corners = ((start, side * inner), (end, side * inner), (end, side * outer), (start, side * outer))
         items.append(Stroke("EDGES", corners, closed=True))
     items.append(linear("length", (start, -outer), (end, -outer), -outer - ROW, (high - low) * MM))
-    for row, radius in enumerate((part.inner_radius, part.outer_radius), 1):
-        r, name = radius * factor, f"diameter {number(2 * radius * MM)}"
+    for row, (radius, name) in enumerate(
+        ((part.inner_radius, "inner diameter"), (part.outer_radius, "outer diameter")), 1
+    ):
+        r = radius * factor
         line = start - 3 - ROW * row
         items.append(linear(name, (start, -r), (start, r), line, 2 * radius * MM, across=True, label="Ø<>"))
     cut = unrolled.spans(part.outline, 0.0)

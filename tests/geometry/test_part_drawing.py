@@ -191,7 +191,7 @@ def test_a_helical_magnet_has_its_envelope_width_lead_and_angle() -> None:
     sheet = sheet_of(arc)
     check_texts(sheet)
     sizes = {name: size / MM for name, (_, size) in told(sheet).items()}
-    assert sizes == pytest.approx({"length": 5, "width": 4, "diameter 20": 20, "diameter 24": 24})
+    assert sizes == pytest.approx({"length": 5, "width": 4, "inner diameter": 20, "outer diameter": 24})
     assert "57.3°" in words(sheet)
     assert "lead 6.2832 mm" in " ".join(words(sheet))
 
