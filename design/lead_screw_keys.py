@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from fluxbore.design.force_benchmark_keys import FORCE_BENCHMARK_KEYS
 from fluxbore.design.keys import Alternatives, Key, Values
+from fluxbore.design.lead_screw_fittings import FITTING_KEYS, FITTING_MATERIALS, FITTING_NON_MAGNETIC
 from fluxbore.design.materials import Material, PermanentMagnet, SoftIron
 from fluxbore.design.solver_keys import solver_keys
 
@@ -233,6 +234,7 @@ LEAD_SCREW_KEYS: tuple[Key, ...] = (
         maximum=1000.0,
         default=293.15,
     ),
+    *FITTING_KEYS,
     *solver_keys("displacement"),
     *FORCE_BENCHMARK_KEYS,
 )
@@ -262,8 +264,9 @@ LEAD_SCREW_MATERIALS: dict[str, type[Material]] = {
     "actuator.rotor.magnet": PermanentMagnet,
     "actuator.rotor.iron": SoftIron,
     "actuator.rotor.frame": Material,
+    **FITTING_MATERIALS,
 }
 """Which keys name materials, and the kind of material that each needs."""
 
-LEAD_SCREW_NON_MAGNETIC = frozenset({"actuator.translator.carrier", "actuator.rotor.frame"})
+LEAD_SCREW_NON_MAGNETIC = frozenset({"actuator.translator.carrier", "actuator.rotor.frame"}) | FITTING_NON_MAGNETIC
 """Keys that must not name a soft iron."""

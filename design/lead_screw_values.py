@@ -9,6 +9,7 @@ from typing import Any
 from fluxbore.design.errors import DesignError, SpecError
 from fluxbore.design.keys import Value, Values
 from fluxbore.design.lead_screw import Arcs, HelicalMagnets, LeadScrew
+from fluxbore.design.lead_screw_fittings import Fittings, fittings_of
 from fluxbore.design.lead_screw_keys import CONTINUOUS, MEMBERS, STEPPED_ARCS
 from fluxbore.design.materials import Library, Material, PermanentMagnet, SoftIron, lookup
 from fluxbore.design.units import format_quantity
@@ -34,6 +35,7 @@ class LeadScrewActuator:
 
     shape : its dimensions, with magnets of 1 T; `magnetised` gives it those of its grades. carrier_radius : inside of
     the translator, 0 where it is solid. motor_radius, motor_length : the stator's, None where it is not described.
+    fittings : what holds it together; None where that is not drawn.
     """
 
     name: str
@@ -47,6 +49,7 @@ class LeadScrewActuator:
     torque_constant: float | None
     reference_volume: float | None
     stroke: float
+    fittings: Fittings | None = None
 
     def magnetised(self, library: Library, temperature: float) -> LeadScrew:
         """The screw with the remanences at a temperature (K) and the densities of its materials.
@@ -181,6 +184,7 @@ def from_values(values: Values) -> LeadScrewActuator:
         torque_constant=number.optional("motor.torque_constant"),
         reference_volume=number.optional("reference_volume"),
         stroke=float(values["operating_point.stroke"]),
+        fittings=fittings_of(values),
     )
 
 

@@ -10,13 +10,14 @@ What is drawn, and what is not:
 - arcs are whole and alike. They stand wherever a middle lies within the length, so that those at the ends overhang it
   by up to half of their own; a length of whole pitches has as many as the helix in it. Both members' helices then are
   half an arc's rise off the middle, so that the rotor overhangs as far at either end;
-- the motor's stator is an envelope. Bearings, guides, the motor's magnets and how parts are held are not drawn.
+- the motor's stator is an envelope. What holds all that together is drawn where the specification says so
+  (`fluxbore.geometry.lead_screw_fittings`); the guides, which are not on the axis, and the motor's magnets are not.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from fluxbore.design.errors import DesignError
 from fluxbore.design.lead_screw import Arcs, HelicalMagnets, LeadScrew
@@ -24,7 +25,9 @@ from fluxbore.design.lead_screw_values import LeadScrewActuator
 from fluxbore.design.units import format_quantity
 from fluxbore.geometry import helix, unrolled
 from fluxbore.geometry.assembly import Assembly
+from fluxbore.geometry.fits import fits
 from fluxbore.geometry.helical_part import HelicalPart
+from fluxbore.geometry.lead_screw_fittings import fitting_parts, seated
 from fluxbore.geometry.outline import RESOLUTION, rectangle
 from fluxbore.geometry.part import Body, Colour, Part
 
@@ -38,6 +41,10 @@ COLOURS: dict[str, Colour] = {
 }
 
 OUTWARDS = {"N": "outwards", "S": "inwards"}
+
+WHOLE_HELIX = "to be made of bonded arcs: no helix is pressed or magnetised as a whole"
+
+NOTES = {"motor stator": "envelope", "rotor iron": "bonded into the frame", "translator iron": "carries the magnets"}
 
 MOST_TURNS = 2000
 """Of one helix around its member; each is some twenty faces of a STEP file."""
@@ -70,7 +77,7 @@ def assembly(actuator: LeadScrewActuator, position: float = 0.0) -> Assembly:
     The translator, which lies still, comes first. Raises DesignError where the magnets are too many to draw and where
     the position is beyond the stroke.
     """
-    shape = actuator.shape
+    shape, held = actuator.shape, fitting_parts(actuator, position)
     reach = actuator.stroke / 2
     if not abs(position) <= reach + SLACK:
         raise DesignError(
@@ -88,14 +95,17 @@ def assembly(actuator: LeadScrewActuator, position: float = 0.0) -> Assembly:
         *_ring(actuator, "translator carrier", actuator.carrier_radius, iron, 0.0, shape.translator_length),
         *_ring(actuator, "translator iron", iron, inner, 0.0, shape.translator_length),
         *_magnets(actuator, translator),
+        *held.fixed,
         *_magnets(actuator, rotor),
         *_ring(actuator, "rotor iron", rim, shape.rotor_iron_radius, position, shape.active_length),
         *_ring(actuator, "rotor frame", shape.rotor_iron_radius, shape.frame_radius, position, shape.frame_length),
+        *held.turning,
     ]
     if actuator.motor_radius is not None and actuator.motor_length is not None:
         parts += _ring(
             actuator, "motor stator", shape.frame_radius, actuator.motor_radius, position, actuator.motor_length
         )
+    parts += held.carried
     return Assembly(actuator.name, tuple(parts), position, outside="mover", carried_mass=actuator.shape.carried_mass)
 
 
@@ -114,8 +124,17 @@ def _ring(
     group = "stator" if name.startswith("translator") else "mover"
     colour = COLOURS[name if name in COLOURS else name.split()[-1]]
     profile = rectangle(max(inner, 0.0), outer, middle - length / 2, middle + length / 2)
-    note = "" if name in materials else "envelope"
-    return [Part(name, name, group, materials.get(name, ""), colour, profile, note=note)]
+    part = Part(name, name, group, materials.get(name, ""), colour, profile, note=NOTES.get(name, ""))
+    return [seated(actuator, replace(part, fits=fits(*_sizes(name, max(inner, 0.0), outer))))]
+
+
+def _sizes(name: str, inner: float, outer: float) -> tuple[tuple[str, float, str], ...]:
+    """Feature, diameter (m) and tolerance class of what slides into one another when the screw is put together."""
+    if name == "rotor iron":
+        return (("outside", 2 * outer, "h6"),)
+    if name == "rotor frame":
+        return (("bore", 2 * inner, "H7"),)
+    return (("outside", 2 * outer, "h9"),) if name.startswith("translator") else ()
 
 
 def _magnets(actuator: LeadScrewActuator, member: _Member) -> list[Body]:
@@ -154,8 +173,8 @@ def _pieces(member: _Member, arcs: Arcs, lead: float, middles: list[float]) -> l
 
 
 def _piece(member: _Member, name: str, role: str, polarity: str, lead: float, outline: unrolled.Outline) -> Body:
-    note = f"magnetised {OUTWARDS[polarity]}"
     arcs = member.shape.arcs
+    note = f"magnetised {OUTWARDS[polarity]}; {WHOLE_HELIX if arcs is None else 'bonded'}"
     if arcs is not None and arcs.stepped:
         if arcs.angle >= unrolled.TURN - unrolled.FLAT:
             low, high = unrolled.heights(unrolled.moved(outline, 0.0, member.position))

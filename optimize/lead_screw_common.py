@@ -31,19 +31,29 @@ SATURATED = 1.5
 
 
 def common_figures(spec: Spec, screw: LeadScrew) -> Performance:
-    """Masses, inertia, size and the gear, of a screw with its materials. Raises MaterialError."""
+    """Masses, inertia, size and the gear, of a screw with its materials.
+
+    Raises MaterialError, and DesignError for a bearing that does not fit.
+    """
     from fluxbore.design import lead_screw_figures as figures
+    from fluxbore.geometry.lead_screw_fittings import fitting_masses
 
     actuator: LeadScrewActuator = spec.actuator
+    held = fitting_masses(actuator, spec.materials)
     carrier = lookup(actuator.translator.body, "actuator.translator.carrier", spec.materials, Material)
-    moving = figures.mover_mass(screw)
-    inertia = figures.rotor_inertia(screw) + actuator.motor_inertia
+    moving = figures.mover_mass(screw) + held.moving
+    inertia = figures.rotor_inertia(screw) + actuator.motor_inertia + held.inertia
     load, acceleration, friction = (
         spec.number(f"operating_point.{name}") for name in ("load_force", "acceleration", "friction_torque")
     )
     torque = screw.h * (load + moving * acceleration) + inertia * acceleration / screw.h + friction
-    radii = [screw.frame_radius, *([] if actuator.motor_radius is None else [actuator.motor_radius])]
+    radii = [
+        held.diameter / 2,
+        screw.frame_radius,
+        *([] if actuator.motor_radius is None else [actuator.motor_radius]),
+    ]
     lengths = [
+        held.length,
         screw.translator_length,
         screw.frame_length,
         *([] if actuator.motor_length is None else [actuator.motor_length]),
@@ -58,7 +68,7 @@ def common_figures(spec: Spec, screw: LeadScrew) -> Performance:
         reflected_mass=figures.reflected_mass(screw, inertia),
         magnet_mass=figures.translator_magnet_mass(screw) + figures.rotor_magnet_mass(screw),
         moving_mass=moving,
-        total_mass=moving + figures.translator_mass(screw, actuator.carrier_radius, carrier.density),
+        total_mass=moving + figures.translator_mass(screw, actuator.carrier_radius, carrier.density) + held.fixed,
         outer_diameter=2 * max(radii),
         length=max(lengths),
     )

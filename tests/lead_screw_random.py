@@ -49,6 +49,7 @@ def changes(seed: int) -> dict[str, str]:
         "actuator.rotor.frame_thickness": mm(log(0.01, 0.5) * radius),
         "actuator.rotor.length": "",
         "actuator.rotor.overhang": mm(float(rng.uniform(0, 3)) * engaged),
+        "actuator.rotor.bearing": "",
         "actuator.motor.outer_radius": "",
         "actuator.motor.length": "",
         "actuator.motor.inertia": f"{log(1e-8, 1)!r} kg m^2",

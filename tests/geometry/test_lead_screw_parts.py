@@ -24,9 +24,10 @@ from fluxbore.geometry import part as parts_of
 from fluxbore.geometry import solid as solids
 from fluxbore.geometry.assembly import Assembly
 from fluxbore.geometry.helical_part import HelicalPart
+from fluxbore.geometry.lead_screw_fittings import fitting_masses
 from fluxbore.geometry.mass import part_masses, total
-from fluxbore.geometry.part_surface import surface
 from fluxbore.geometry.part import Part
+from fluxbore.geometry.part_surface import surface
 from fluxbore.reports.section_drawing import section
 
 MM = 1e-3
@@ -164,22 +165,24 @@ def test_masses_are_the_models(specs: dict[str, Spec]) -> None:
         whole = drawn(spec)
         rows = part_masses(whole, spec.materials)
         screw = spec.actuator.magnetised(spec.materials, 293.15)
-        assert total(rows, "mover") == pytest.approx(rotor_mass(screw), rel=1e-12), form
-        assert total(rows, "mover") + whole.carried_mass == pytest.approx(mover_mass(screw), rel=1e-12)
-        translator = sum(row.mass for row in rows if row.part.role.startswith("translator") and row.part.note)
+        held = fitting_masses(spec.actuator, spec.materials)
+        assert total(rows, "mover") == pytest.approx(rotor_mass(screw) + held.moving, rel=1e-12), form
+        assert total(rows, "mover") + whole.carried_mass == pytest.approx(mover_mass(screw) + held.moving, rel=1e-12)
+        translator = sum(row.mass for row in rows if row.part.role.startswith(("translator magnet", "translator arc")))
         # 85 mm are 99.2 arcs of each polarity; whole ones are 99 or 100.
         close = 1e-12 if spec.actuator.shape.translator.arcs is None else 1 / 99
         assert translator == pytest.approx(translator_magnet_mass(screw), rel=close), form
 
 
 def test_bodies_without_thickness_are_left_out_and_the_carrier_is_drawn() -> None:
-    spec = load(ROTLIN, {"actuator.rotor.iron_thickness": "0 mm", "actuator.translator.thickness": "9 mm"})
+    bare = {"actuator.fittings": "none"}  # whose ends would be let into a bore
+    spec = load(ROTLIN, {**bare, "actuator.rotor.iron_thickness": "0 mm", "actuator.translator.thickness": "9 mm"})
     whole = drawn(spec)
     names = [part.name for part in whole.parts]
     assert "rotor iron" not in names
     assert whole.part("translator carrier").profile[0][0] == pytest.approx(8.45 * MM)
     assert whole.part("translator carrier").profile[1][0] == pytest.approx(9.95 * MM)
-    solid = drawn(load(ROTLIN, {"actuator.translator.thickness": ""}))
+    solid = drawn(load(ROTLIN, {**bare, "actuator.translator.thickness": ""}))
     assert solid.part("translator carrier").profile[0][0] == 0.0
 
 
@@ -228,7 +231,7 @@ def test_the_report_has_a_line_for_all_that_are_alike(specs: dict[str, Spec]) ->
     assert (rows["motor stator"].material, rows["motor stator"].mass) == ("envelope only", 0.0)
     assert rows["carried along, not drawn"].mass == spec.number("actuator.carried_mass")
     sentences = report_content.checked(whole)
-    assert sentences[0] == "Interference of all 228 parts in their section: none."
+    assert sentences[0] == "Interference of all 238 parts in their section: none."
     assert "0.8 mm between the members, neighbours touch along the axis" in sentences[1]
 
 
@@ -336,7 +339,7 @@ def test_the_pages_command_writes_what_the_page_says(
     assert main([str(ROTLIN) if word == "examples/rotlin.toml" else word for word in shlex.split(first)]) == 0
     assert capsys.readouterr().err == ""
     assert (tmp_path / "cad" / "RotLin.step").exists()
-    assert len(list((tmp_path / "cad" / "parts").iterdir())) == 8
+    assert len(list((tmp_path / "cad" / "parts").iterdir())) == 13
     overrides = dict(word.split("=", 1) for word in shlex.split(second) if "=" in word)
     whole = drawn(load(ROTLIN, overrides))
     assert [len(magnets(whole, "translator", polarity)) for polarity in "NS"] == [100, 100]
