@@ -194,7 +194,8 @@ def test_drillings_stay_clear_of_one_another(
         for one, other in itertools.combinations(part.holes, 2):
             if (one.z, one.angle) != (other.z, other.angle):
                 needed = (one.diameter + other.diameter) / 2
-                radius = max(one.bottom, other.bottom, layout.passage_diameter(actuator) / 2)
+                inside = max(layout.passage_diameter(actuator) / 2, min(r for r, _ in part.profile))
+                radius = max(one.bottom, other.bottom, inside)
                 turn = abs((one.angle - other.angle + math.pi) % (2 * math.pi) - math.pi)
                 assert abs(one.z - other.z) >= needed or 2 * radius * math.sin(turn / 2) >= needed * (1 - 1e-9)
         for beside, hole in itertools.product(part.axial_holes, part.holes):
