@@ -93,11 +93,13 @@ class Chromium:
         calm: bool = False,
         touch: bool = False,
         scripts: bool = True,
+        slower: float = 1.0,
     ) -> Page:
         """A page in a context of its own, loaded. target : a file, or an address.
 
         width, height : of the window in CSS pixels. dark : what the system prefers. calm : it prefers little motion.
-        touch : a phone: no mouse, two device pixels to one of CSS. scripts : whether they run.
+        touch : a phone: no mouse, two device pixels to one of CSS. scripts : whether they run. slower : times that the
+        page's processor is slowed down.
         """
         address = target if isinstance(target, str) and "://" in target else Path(target).resolve().as_uri()
         context = self.pipe.send("Target.createBrowserContext")["browserContextId"]
@@ -108,6 +110,8 @@ class Chromium:
         page.prefer(dark=dark, calm=calm)
         if not scripts:
             page.send("Emulation.setScriptExecutionDisabled", {"value": True})
+        if slower != 1.0:
+            page.throttle(slower)
         page.load(address)
         return page
 
