@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 from actuators import table_ii
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from fluxbore.design import seal_gland
@@ -169,13 +169,27 @@ def test_the_mass_has_a_slope_along_every_length(section: str, key: str) -> None
     assert abs(after + before - 2 * here) < 1e-8 * here
 
 
+def test_bought_sizes_follow_the_shaft_without_steps() -> None:
+    """Catches a catalogue's size that a shaft's diameter snaps to: wire by a tenth, bush by its root and 3/4."""
+    step = 1e-3
+    wider = changed("shaft", outer_diameter=8 * MM * (1 + step))
+    before, after = layout.rod_guide(table_ii()), layout.rod_guide(wider)
+    assert before is not None
+    assert after is not None
+    assert layout.snap_wire(wider) / layout.snap_wire(table_ii()) == pytest.approx(1 + step, rel=1e-9)
+    assert after.wall / before.wall == pytest.approx((1 + step) ** 0.5, rel=1e-9)
+    assert before.start - after.start == pytest.approx(6 * MM * step, rel=1e-6)
+    assert after.ring.gland.bore - before.ring.gland.bore == pytest.approx(8 * MM * step, rel=1e-6)
+
+
 @given(
     st.sampled_from(["M5", "G1/8", None]),
     st.sampled_from(sorted(SCREWS)),
-    st.integers(0, 12),
+    st.integers(0, 24),
     st.floats(0.4, 4.0),
     st.floats(0.6, 1.5),
 )
+@example("M5", "M3", 4, 3.0, 1.0)
 def test_drillings_stay_clear_of_one_another(
     port: str | None, thread: str, count: int, section: float, scale: float
 ) -> None:
@@ -204,4 +218,6 @@ def test_drillings_stay_clear_of_one_another(
     spigot = layout.spigot(actuator)
     if spigot.screws is not None and spigot.ring is not None:
         edge = spigot.ring.middle + spigot.ring.gland.groove_width / 2
-        assert edge < spigot.screws.s - spigot.screws.thread.clearance / 2
+        half = spigot.screws.thread.clearance / 2
+        assert edge < spigot.screws.s - half
+        assert spigot.screws.s + half <= spigot.length - spigot.lead_in / layout.LEAD_IN + 1e-12
