@@ -85,13 +85,13 @@ class Condensation:
         diagonal = values[self._diagonal]
         return np.divide(1.0, diagonal, out=np.zeros_like(diagonal), where=diagonal > 0)
 
-    def band(self, values: Floats, inverse: Floats) -> Floats:
+    def band(self, values: Floats, inverse: Floats, precision: type[np.floating[Any]]) -> Any:
         """(kept, bandwidth + 1) the lower triangle of K − C D⁻¹ Cᵀ, by columns from the diagonal down."""
         columns = np.append(values, 0.0)[self._padded]
         first, second = self._pairs
         products = (columns[:, first] * (columns * -inverse[:, None])[:, second]).ravel()[self._real]
         entries = np.bincount(self._target, np.concatenate((values[self._own], products)), self._place.size)
-        band = np.zeros((self.size, self.bandwidth + 1))
+        band = np.zeros((self.size, self.bandwidth + 1), dtype=precision)
         band.ravel()[self._place] = entries
         return band
 
@@ -110,13 +110,12 @@ class Condensed:
         self._inverse = places.inverse_diagonal(values)
         self.definite = bool(np.all(self._inverse > 0))
         self._coupling = places.coupling(values)
-        self._band: Floats | None = places.band(values, self._inverse)
+        self._transposed = self._coupling.T
+        self._values = values
 
-    def take_band(self) -> Floats:
-        """`Condensation.band`, once: it is the taker's, to be overwritten by its factor."""
-        band, self._band = self._band, None
-        assert band is not None
-        return band
+    def band(self, precision: type[np.floating[Any]]) -> Any:
+        """`Condensation.band`, of this precision."""
+        return self._places.band(self._values, self._inverse, precision)
 
     def solve(self, right: Floats, solver: Any) -> Floats:
         """(x, y) of a right side (n,) or (n, k). solver : solves with the band, for (kept,) or (kept, k)."""
@@ -126,5 +125,5 @@ class Condensed:
         found = np.empty_like(right)
         outside = solver(right[places.kept] - self._coupling @ inside)
         found[places.kept] = outside
-        found[places.inner] = inside - inverse * (self._coupling.T @ outside)
+        found[places.inner] = inside - inverse * (self._transposed @ outside)
         return found

@@ -62,3 +62,28 @@ def test_a_condensed_matrix_that_is_not_definite(matrix: tuple[Pattern, np.ndarr
     spoilt[np.flatnonzero((pattern.rows == pattern.inner[7]) & (pattern.columns == pattern.inner[7]))] *= -1
     with pytest.raises(SingularMatrixError):
         BandedCholesky(pattern, spoilt)
+
+
+def test_single_precision_is_refined(matrix: tuple[Pattern, np.ndarray]) -> None:
+    """Catches a solution that is left at five digits: the residual is that of double precision."""
+    pattern, values = matrix
+    factor = BandedCholesky(pattern, values)
+    right = np.random.default_rng(6).normal(size=pattern.unknowns)
+    rough = pattern.multiply(values, factor.once(right)) - right
+    fine = pattern.multiply(values, factor.solve(right)) - right
+    assert not factor.exact
+    assert np.linalg.norm(fine) < 1e-13 * np.linalg.norm(right) < np.linalg.norm(rough)
+
+
+def test_double_precision_where_sweeps_do_not_gain(
+    matrix: tuple[Pattern, np.ndarray], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Catches an ill-conditioned matrix that is left with a factor of five digits, by a rule that no sweep meets."""
+    pattern, values = matrix
+    monkeypatch.setattr("fluxbore.fem.factors.WORTH", 0.0)
+    monkeypatch.setattr("fluxbore.fem.factors.ROUNDING", 0.0)
+    factor = BandedCholesky(pattern, values)
+    right = np.random.default_rng(7).normal(size=pattern.unknowns)
+    found = factor.solve(right)
+    assert factor.exact
+    assert np.linalg.norm(pattern.multiply(values, found) - right) < 1e-12 * np.linalg.norm(right)
