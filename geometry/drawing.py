@@ -27,11 +27,14 @@ from fluxbore.geometry.measure import Measure, overall
 from fluxbore.geometry.parts_list import Item as Line
 from fluxbore.geometry.parts_list import parts_list
 from fluxbore.geometry.sheet import Dimension, Item, Sheet, bounds, moved
-from fluxbore.geometry.sheet_dimension import LEAST, ROW, apart, linear, spread
+from fluxbore.geometry.sheet_dimension import LEAST, ROW, apart, linear, spread, touching
 from fluxbore.geometry.sheet_frame import SCALES, TITLE_HEIGHT, TITLE_WIDTH, TitleWords, frame, inner, mass_text, notes
 from fluxbore.geometry.sheet_view import MM, Section, on_paper, section_of, section_view
 
 SIZE = "A3"
+
+ASIDE = 20.0
+"""mm, more than any number is long."""
 
 CLEAR = 4.0
 """mm between the drawing and what is around it."""
@@ -77,7 +80,8 @@ def assembly_sheet(assembly: Assembly, items: Sequence[Line], page: Page | None 
     room = (right - left - 2 * CLEAR, high - floor - CLEAR)
     section = section_of(assembly)
     for scale in SCALES:
-        drawn = [*_views(assembly, section, scale), *balloons(section, items, _top(assembly, scale), scale)]
+        drawn = _views(assembly, section, scale)
+        drawn += balloons(section, items, bounds(drawn)[3] + 5, scale)
         drawn = _with_details(assembly, section, drawn, scale)
         x0, y0, x1, y1 = bounds(drawn)
         if x1 - x0 <= room[0] and y1 - y0 <= room[1]:
@@ -102,28 +106,30 @@ def _remarks(assembly: Assembly) -> list[str]:
     return lines
 
 
-def _top(assembly: Assembly, scale: float) -> float:
-    """y above all dimensions (mm)."""
-    rows = [-measure.place for measure in assembly.measures if not measure.across]
-    return extent(assembly)[2] * MM * scale + 8 + ROW * max([0.0, *rows])
-
-
 def _views(assembly: Assembly, section: Section, scale: float) -> list[Item]:
     """The section and its dimensions about the model's origin."""
+    items = section_view(section, scale)
+    lines = _dimensions(assembly, scale, 0.0)
+    if touching(lines):  # a number that stands above the part, for want of room between its arrows
+        lines = _dimensions(assembly, scale, ASIDE)
+    return [*items, *lines]
+
+
+def _dimensions(assembly: Assembly, scale: float, aside: float) -> list[Item]:
+    """aside : mm by which the rows above the drawing are farther from it."""
     low, high, reach = (value * MM * scale for value in extent(assembly))
     measures = assembly.measures or overall(assembly.parts, ROW / MM / scale)
-    items = section_view(section, scale)
     across = [measure for measure in measures if measure.across]
     columns = iter(_columns([measure.place * MM * scale for measure in across], low, high))
-    for measure in measures:
-        items.append(dimension(measure, scale, next(columns) if measure.across else _row(measure.place, reach)))
-    return items
 
+    def line(measure: Measure) -> float:
+        """x of one across; else y of its row, counted from 1 below the drawing and from -1 above it."""
+        if measure.across:
+            return next(columns)
+        row = reach + 2 + ROW * abs(measure.place)
+        return -row if measure.place > 0 else row + aside
 
-def _row(place: float, reach: float) -> float:
-    """y of the dimension line in a row, counted from 1 below the drawing and from -1 above it."""
-    side = -1 if place > 0 else 1
-    return side * (reach + 2 + ROW * abs(place))
+    return [dimension(measure, scale, line(measure)) for measure in measures]
 
 
 def _columns(places: Sequence[float], low: float, high: float) -> list[float]:

@@ -137,6 +137,14 @@ def spread(wanted: Sequence[float], gap: float) -> list[float]:
     return [value + i * gap for i, value in enumerate(flat)]
 
 
+def touching(items: Iterable[Item]) -> bool:
+    """Whether any two texts cover one another."""
+    boxes = [text.box for text in texts_of(items)]
+    return any(
+        a[0] < b[2] and b[0] < a[2] and a[1] < b[3] and b[1] < a[3] for i, a in enumerate(boxes) for b in boxes[:i]
+    )
+
+
 def apart(items: Iterable[Item], margin: float = 0.4) -> list[Item]:
     """The items with extension lines and edges interrupted where they would run through the text of another."""
     every = list(items)
