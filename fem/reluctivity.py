@@ -20,6 +20,7 @@ import numpy as np
 
 from fluxbore.design.bh_curve import MU_0, BHCurve
 from fluxbore.fem.mesh import Floats
+from fluxbore.fem.monotone_cubic import cubic_values, monotone_cubic
 
 VACUUM_PERMEABILITY = MU_0
 """H/m. The pre-2019 exact value: it differs from CODATA 2018 by 5e-10, and FEMM uses it too."""
@@ -110,17 +111,15 @@ class ReluctivityCurve:
 @lru_cache(maxsize=64)
 def reluctivity_curve(curve: BHCurve) -> ReluctivityCurve:
     """The spline of a table: through its monotone interpolant, and with slope μ0 beyond its last point."""
-    from scipy.interpolate import PchipInterpolator
-
     b, h = np.array(curve.b), np.array(curve.h)
-    table = PchipInterpolator(b, h)
+    table = monotone_cubic(b, h)
     step = _step(b)
     knots = step * np.arange(int(np.ceil(b[-1] / step)) + 6)
     # Between two points of a steep table the interpolant can be steeper than 1/μ0, which no material is: a straight
     # line there is not. Cutting the slope instead would lose what is cut for all B above.
     interval = np.clip(np.searchsorted(b, knots, side="right") - 1, 0, b.size - 2)
-    steep = _steepest(table.c, np.diff(b)) > VACUUM_RELUCTIVITY
-    inside = np.where(steep[interval], np.interp(knots, b, h), table(np.minimum(knots, b[-1])))
+    steep = _steepest(table, np.diff(b)) > VACUUM_RELUCTIVITY
+    inside = np.where(steep[interval], np.interp(knots, b, h), cubic_values(b, table, np.minimum(knots, b[-1])))
     samples = np.where(knots <= b[-1], inside, h[-1] + (knots - b[-1]) * VACUUM_RELUCTIVITY)
     # A table's own rounding (`SLOPE_TOLERANCE` of the guard) may still exceed 1/μ0 by a thousandth.
     samples = np.concatenate(([0.0], np.cumsum(np.minimum(np.diff(samples), step * VACUUM_RELUCTIVITY))))
