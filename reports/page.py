@@ -24,13 +24,16 @@ from fluxbore.reports import (
     load_tables,
     optimum,
     parallel,
+    search_curves,
     section_drawing,
+    seen,
     sensitivity,
     story,
     study_curves,
     study_tables,
     tables,
     tolerances,
+    tried,
 )
 from fluxbore.reports.brush_data import DesignTable, design_table, page_data
 from fluxbore.reports.content import ReportContent
@@ -111,11 +114,11 @@ def _context(content: ReportContent, designs: Mapping[str, Any] | None) -> Mappi
         "sweeps": _sweeps(content),
         "search": search,
         "search_figures": _present(
-            curves.convergence_curve(spec, search, objective) if search and objective else None,
-            curves.search_path(spec, search, content.one_at_a_time) if search else None,
+            search_curves.convergence_curve(spec, search, objective) if search and objective else None,
+            search_curves.search_path(spec, search, content.one_at_a_time) if search else None,
         ),
         "history": study_tables.history(content, search, objective) if search and objective else None,
-        "effort": story.effort(search, content.words) if search else "",
+        "effort": tried.effort(search, content.words) if search else "",
         "optimum": _optimum(content),
         "sensitivities": sensitivity.sensitivities(content),
         "front": _front(content),
@@ -124,12 +127,12 @@ def _context(content: ReportContent, designs: Mapping[str, Any] | None) -> Mappi
         "benchmark": benchmark_sections.benchmark_section(content.simulation),
         "designs": designs,
         "mark_shapes": parallel.MARKS,
-        "failures": story.failures(search) if search else "",
+        "failures": tried.failures(search) if search else "",
         "screw": _screw(content),
         "hydraulics": _hydraulics(content),
         "field": _field(content),
         "force_figures": _present(*_force(content)) if sound else (),
-        "force_text": [text for text in (story.routes(sound), story.ripple(sound)) if text] if sound else [],
+        "force_text": [text for text in (seen.routes(sound), seen.ripple(sound)) if text] if sound else [],
         "positions": tables.positions(sound) if sound else None,
         "comparison": figure_tables.comparison(content),
         "meanings": figure_tables.meanings(content),
@@ -139,7 +142,7 @@ def _context(content: ReportContent, designs: Mapping[str, Any] | None) -> Mappi
         "slots_note": content.slots.note if content.slots is not None else "",
         "parts": tables.parts(content.parts),
         "winding": winding_section(content.winding),
-        "seen": story.seen(content),
+        "seen": seen.seen(content),
         "checked": [text for text in content.checked if text not in warnings],
         "not_checked": content.not_checked,
         "notes": [
@@ -180,7 +183,7 @@ def _sweeps(content: ReportContent) -> list[dict[str, Any]]:
         {
             "name": result.sweep.name,
             "figure": curves.sweep_curve(content.spec, result, f"sweep-{i}", figure, maximise, content.words.route),
-            "finding": story.sweep_finding(content.spec, result, figure, maximise),
+            "finding": tried.sweep_finding(content.spec, result, figure, maximise),
             "failed": tables.failed_rows(content, result),
         }
         for i, result in enumerate(content.sweeps)

@@ -11,7 +11,7 @@ import pytest
 from fluxbore.design.performance import FIGURES
 from fluxbore.optimize.evaluation import NOT_CONVERGED, failure
 from fluxbore.optimize.outcome import Candidate, Check, Limit, SearchResult
-from fluxbore.reports import curves, flux_picture, story, study_tables
+from fluxbore.reports import flux_picture, search_curves, story, study_tables, tried
 from fluxbore.reports.content import FluxMap, ReportContent
 from fluxbore.reports.page import render
 from fluxbore.reports.wording import meaning
@@ -174,14 +174,14 @@ def test_the_nearest_step_is_named_where_it_breaks_a_limit(content: ReportConten
 def test_effort_and_failures(content: ReportContent) -> None:
     """Catches the seconds of a run that read most designs from a file, and failed designs that nobody mentions."""
     search = _search(content)
-    assert story.effort(search) == "30 designs by finite elements in 41 s."
+    assert tried.effort(search) == "30 designs by finite elements in 41 s."
     again = dataclasses.replace(search, reused=20)
-    assert story.effort(again) == "30 designs by finite elements, 20 of them from an earlier run."
+    assert tried.effort(again) == "30 designs by finite elements, 20 of them from an earlier run."
     lost = [failure("fem", NOT_CONVERGED, f"At z = {z} mm: no convergence.") for z in (24, 25.5)]
     history = (*search.history, *(dataclasses.replace(search.start, evaluation=item) for item in lost))
-    text = story.failures(dataclasses.replace(search, history=history))
+    text = tried.failures(dataclasses.replace(search, history=history))
     assert text.startswith("3 of 32 designs have no result: At z = 24 mm: no convergence (2 of them); The field did")
-    assert story.failures(dataclasses.replace(search, history=(search.start,))) == ""
+    assert tried.failures(dataclasses.replace(search, history=(search.start,))) == ""
 
 
 def test_an_outlier_does_not_flatten_the_search(content: ReportContent) -> None:
@@ -193,8 +193,8 @@ def test_an_outlier_does_not_flatten_the_search(content: ReportContent) -> None:
     found = dataclasses.replace(
         search, history=(*search.history, wild), best_so_far=(*search.best_so_far, search.best_so_far[-1])
     )
-    history = curves.convergence_curve(content.spec, found, objective)
-    plane = curves.search_path(content.spec, found, content.one_at_a_time)
+    history = search_curves.convergence_curve(content.spec, found, objective)
+    plane = search_curves.search_path(content.spec, found, content.one_at_a_time)
     assert history is not None
     assert plane is not None
     assert re.search(r"beyond the axis \(\d+\)", history.markup)
