@@ -20,6 +20,7 @@ VERBS = (
     "pareto",
     "report",
     "robust",
+    "snap",
     "solve",
     "sweep",
     "tolerance",

@@ -33,6 +33,7 @@ __all__ = [
     "Performance",
     "RobustResult",
     "SearchResult",
+    "Snapped",
     "Spec",
     "SweepResult",
     "ToleranceResult",
@@ -47,6 +48,7 @@ __all__ = [
     "report",
     "robust",
     "simulate",
+    "snap",
     "solve",
     "sweep",
     "tolerance",
@@ -79,6 +81,7 @@ if TYPE_CHECKING:
     from fluxbore.optimize.outcome import SearchResult, SweepResult
     from fluxbore.optimize.pareto_result import ParetoResult
     from fluxbore.optimize.tolerance_result import RobustResult, ToleranceResult
+    from fluxbore.snapping import Snapped, snap
     from fluxbore.solving import solve
 
 _HOMES = {
@@ -95,6 +98,8 @@ _HOMES = {
     "ParetoResult": "fluxbore.optimize.pareto_result",
     "ToleranceResult": "fluxbore.optimize.tolerance_result",
     "RobustResult": "fluxbore.optimize.tolerance_result",
+    "Snapped": "fluxbore.snapping",
+    "snap": "fluxbore.snapping",
     "solve": "fluxbore.solving",
 }
 

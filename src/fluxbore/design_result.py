@@ -64,11 +64,14 @@ def searched(spec: Spec, search: SearchResult) -> DesignResult:
     return DesignResult(final, chosen.evaluation, chosen.checks, status, reasons, search)
 
 
-def judged(spec: Spec, evaluation: Evaluation) -> DesignResult:
-    """A design that was evaluated as it is, held against the study's limits."""
+def judged(spec: Spec, evaluation: Evaluation, start: Evaluation | None = None) -> DesignResult:
+    """A design that was evaluated as it is, held against the study's limits.
+
+    start : what limits that are relative to the start refer to; without it the evaluation itself.
+    """
     if not evaluation.ok:
         return DesignResult(spec, evaluation, (), evaluation.status, evaluation.reasons)
-    checks = check(resolve_limits(spec, evaluation), spec.values, evaluation.performance, evaluation.fidelity)
+    checks = check(resolve_limits(spec, start or evaluation), spec.values, evaluation.performance, evaluation.fidelity)
     missed = tuple(
         f"{item.limit.subject} {item.limit.sense} {show_limit(spec, item.limit)} is not met."
         for item in checks

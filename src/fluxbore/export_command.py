@@ -6,6 +6,7 @@ import argparse
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
+from fluxbore.snap_messages import snap_lines, snap_plain
 from fluxbore.spec_options import path_name, read_spec, with_spec
 
 if TYPE_CHECKING:
@@ -23,6 +24,11 @@ def add_to(command: argparse.ArgumentParser) -> None:
         "--format", choices=FORMATS, action="append", help="default: step; give it several times for several"
     )
     command.add_argument("--schema", choices=("AP242", "AP214"), default="AP242", help="of STEP files; default: AP242")
+    command.add_argument(
+        "--snap",
+        choices=("catalogue",),
+        help="put what is bought to the nearest catalogue sizes first, and say what that does to the figures",
+    )
     command.add_argument("--force", action="store_true", help="take a folder that holds other files")
     command.add_argument("--json", action="store_true", help="print JSON")
 
@@ -31,17 +37,31 @@ def run(options: argparse.Namespace) -> tuple[bool, str | dict[str, Any]]:
     """Write the files. Whether the parts fit one another; what to print, text or JSON."""
     from fluxbore.exporting import export_checked
 
+    spec, formats = read_spec(options), options.format or ["step"]
+    snapped = None
+    if options.snap:
+        from fluxbore.snapping import snap
+
+        snapped = snap(spec)
+        spec = snapped.spec
     found = export_checked(
-        read_spec(options), options.output, options.format or ["step"], schema=options.schema, force=options.force
+        spec, options.output, formats, schema=options.schema, force=options.force, own_text=snapped is not None
     )
     files = [str(path) for path in found.files]
     reasons = [reason for standing in found.standings for reason in _reasons(standing)]
+    status, sound = "ok" if found.sound else "parts overlap", found.sound
+    if snapped is not None and not snapped.ok:
+        status, sound = "limits not met" if found.sound else status, False
+        reasons += snapped.reasons
     if not options.json:
-        return found.sound, "\n".join([*files, *(_line(standing) for standing in found.standings), *reasons])
-    plain: dict[str, Any] = {"status": "ok" if found.sound else "parts overlap", "reasons": reasons, "files": files}
+        told = snap_lines(snapped) if snapped is not None else []
+        return sound, "\n".join([*told, *files, *(_line(standing) for standing in found.standings), *reasons])
+    plain: dict[str, Any] = {"status": status, "reasons": reasons, "files": files}
     if found.standings:
         plain["places"] = [asdict(standing) for standing in found.standings]
-    return found.sound, plain
+    if snapped is not None:
+        plain["snap"] = snap_plain(snapped)
+    return sound, plain
 
 
 def _reasons(standing: Standing) -> list[str]:

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 from fluxbore.actuators import ACTUATORS, STROKE_PLACES, actuator_of, assembly_of
 from fluxbore.design.errors import DesignError, SpecError
 from fluxbore.design.spec import Spec
+from fluxbore.design.spec_file import to_toml
 from fluxbore.geometry import own_files
 from fluxbore.geometry.assembly import Assembly
 from fluxbore.geometry.file_names import file_name
@@ -217,16 +218,26 @@ def export_files(
 
 
 def export_checked(
-    spec: Spec, folder: Path | str, formats: Sequence[str], *, schema: str = STEP_SCHEMAS[0], force: bool = False
+    spec: Spec,
+    folder: Path | str,
+    formats: Sequence[str],
+    *,
+    schema: str = STEP_SCHEMAS[0],
+    force: bool = False,
+    own_text: bool = False,
 ) -> Export:
     """Write the files of these formats into the folder, which is opened when all contents are there.
 
+    own_text : whether the specification itself is written too, as it is when it is not the one that was read.
     Raises what `wanted`, a format, `open_folder` or `own_files.put` raises; then nothing is written.
     """
     if schema not in STEP_SCHEMAS:
         raise SpecError(f'The schema of STEP files must be {" or ".join(STEP_SCHEMAS)}; got "{schema}".')
     words, job = wanted(spec, formats), Job(spec, schema)
     made = {word: FORMATS[word].contents(job) for word in words}
+    if own_text:
+        comment = f"{job.assembly.name} in catalogue sizes, every value exact."
+        made["specification"] = {f"{job.stem}-catalogue.toml": to_toml(spec, comment)}
     shown = any(FORMATS[word].parts for word in words)
     found = standings(job.places) if shown else ()
     with open_folder(folder, spec, force) as place:
