@@ -11,7 +11,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fluxbore.fem.element import shape
 from fluxbore.fem.magnetostatics import Solution
 from fluxbore.fem.mesh import Floats, Ints, Mesh
 from fluxbore.fem.problem import Circuit
@@ -26,7 +25,7 @@ class Clip:
     """Gauss points in what windows cut out of triangles.
 
     element, window : (p,). triangle : (p, 3, 2) corners in the chart. r, z : (p, 32) m. weight : (p, 32) m².
-    barycentric : (p, 32, 3).
+    shares : (p, 32) three times, the barycentric coordinates.
     """
 
     element: Ints
@@ -35,7 +34,24 @@ class Clip:
     r: Floats
     z: Floats
     weight: Floats
-    barycentric: Floats
+    shares: tuple[Floats, Floats, Floats]
+
+    @property
+    def barycentric(self) -> Floats:
+        """(p, 32, 3)."""
+        return np.stack(self.shares, axis=-1)
+
+    def integral(self) -> Floats:
+        """(p, 6) ∫ φ_i dr dz (m²) of the shape functions, from the moments of the barycentric coordinates."""
+        a, b, c = self.shares
+        wa, wb, wc = (self.weight * share for share in self.shares)
+        corners = [2 * _sums(w, x) - w.sum(axis=1) for w, x in ((wa, a), (wb, b), (wc, c))]
+        return np.column_stack((*corners, 4 * _sums(wa, b), 4 * _sums(wb, c), 4 * _sums(wc, a)))
+
+
+def _sums(x: Floats, y: Floats) -> Floats:
+    """(p,) Σ over points."""
+    return np.asarray(np.einsum("pk,pk->p", x, y))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -56,8 +72,7 @@ def cuts(mesh: Mesh, coils: Sequence[CoilWindow]) -> tuple[Cut, ...]:
     for radii in dict.fromkeys(coil.r for coil in coils):
         alike = np.array([k for k, coil in enumerate(coils) if coil.r == radii])
         clip = clipped(mesh, radii, np.array([coils[k].z for k in alike]))
-        integral = (clip.weight[:, None, :] @ shape(clip.barycentric))[:, 0]
-        found.append(Cut(alike[clip.window], clip, integral))
+        found.append(Cut(alike[clip.window], clip, clip.integral()))
     return tuple(found)
 
 
@@ -126,7 +141,7 @@ def clipped(mesh: Mesh, radii: tuple[float, float], windows: Floats) -> Clip:
         weight[:, k] = (height[:, None] * np.abs(right - left) * _UNIT_WEIGHTS)[..., None] * _UNIT_WEIGHTS
         all_z[:, k] = z[..., None]
     r, all_z, weight = (values.reshape(count, 32) for values in (r, all_z, weight))
-    return Clip(element, which, triangle, r, all_z, weight, _barycentric(triangle, r**2 / 2, all_z))
+    return Clip(element, which, triangle, r, all_z, weight, _shares(triangle, r**2 / 2, all_z))
 
 
 def _within(mesh: Mesh, radii: tuple[float, float]) -> Ints:
@@ -144,8 +159,8 @@ def _on_edge(a: Floats, b: Floats, z: Floats) -> Floats:
     return np.asarray(a[:, [0]] + slope[:, None] * (z - a[:, [1]]))
 
 
-def _barycentric(triangle: Floats, s: Floats, z: Floats) -> Floats:
-    """Barycentric coordinates (m, ..., 3) of points in triangles (m, 3, 2)."""
+def _shares(triangle: Floats, s: Floats, z: Floats) -> tuple[Floats, Floats, Floats]:
+    """Barycentric coordinates (m, ...) of points in triangles (m, 3, 2)."""
     expand = (slice(None),) + (None,) * (s.ndim - 1)
     a, b, c = (triangle[:, k] for k in range(3))
     area = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (c[:, 0] - a[:, 0]) * (b[:, 1] - a[:, 1])
@@ -154,4 +169,5 @@ def _barycentric(triangle: Floats, s: Floats, z: Floats) -> Floats:
         cross = (p[:, 0][expand] - s) * (q[:, 1][expand] - z) - (q[:, 0][expand] - s) * (p[:, 1][expand] - z)
         return np.asarray(cross / area[expand])
 
-    return np.stack((share(b, c), share(c, a), share(a, b)), axis=-1)
+    first, second = share(b, c), share(c, a)
+    return first, second, 1 - first - second

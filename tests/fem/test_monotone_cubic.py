@@ -39,7 +39,8 @@ def test_a_magnetisation_curve_loads_no_interpolation_package() -> None:
     """Catches an import that takes every worker of a sweep as long as several of its solutions."""
     code = (
         "import sys; from fluxbore.design.materials import standard; "
-        "from fluxbore.fem.reluctivity import reluctivity_curve; reluctivity_curve(standard()['1010'].curve); import fluxbore.fem.tubular; "
+        "from fluxbore.fem.reluctivity import reluctivity_curve; import fluxbore.fem.tubular; "
+        "reluctivity_curve(standard()['1010'].curve); "
         "print([name for name in ('scipy.interpolate', 'scipy.optimize', 'scipy.special') if name in sys.modules])"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)

@@ -1,0 +1,194 @@
+"""How long the hybrid actuator's studies take, with the error beside the time.
+
+    python benchmarks/speed.py              the table, and how time scales (minutes)
+    python benchmarks/speed.py --table      the table alone
+    python benchmarks/speed.py --once       one run of what is otherwise the best of three
+
+Whole processes are timed from their start to their end, with nothing cached between runs; single solves are timed in a
+process of one BLAS thread. Errors are against the same model on the mesh refined three times, those of Fig. 6 against
+benchmarks/fig6_reference.csv. Beside the seconds stand those that a fixed factorisation takes on this machine at the
+time: a machine that is busy is slow at both.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import os
+import platform
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+from time import perf_counter
+
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
+import numpy as np  # after the number of threads is set
+from fig6 import EXAMPLES, TOP, read_reference
+
+from fluxbore.design.hybrid_values import positions as window_positions
+from fluxbore.design.spec import Spec, load
+from fluxbore.fem.magnetostatics import Settings
+from fluxbore.fem.tubular import TubularSolution, solve_positions, space_vector
+from fluxbore.geometry.hybrid import cross_section
+from fluxbore.optimize.evaluate import evaluate
+
+FLUXBORE = [sys.executable, "-m", "fluxbore"]
+KEYS = ("actuator.mover.ring_width", "actuator.back_yoke.thickness", "actuator.winding.outer_diameter")
+
+
+def best(runs: int, action: Callable[[], object]) -> float:
+    """The least seconds of some runs."""
+    seconds = []
+    for _ in range(runs):
+        begin = perf_counter()
+        action()
+        seconds.append(perf_counter() - begin)
+    return min(seconds)
+
+
+def yardstick() -> float:
+    """Seconds of LAPACK's banded Cholesky, 14,616 unknowns of half bandwidth 114: what a solve once began with."""
+    from scipy.linalg import cholesky_banded
+
+    band = np.full((115, 14_616), -1e-3)
+    band[0] = 10.0
+    return best(5, lambda: cholesky_banded(band, lower=True, check_finite=False))
+
+
+def command(*arguments: str) -> float:
+    """Seconds of a fluxbore command; ends the program where it fails."""
+    begin = perf_counter()
+    done = subprocess.run([*FLUXBORE, *arguments], capture_output=True, text=True, check=False)
+    if done.returncode:
+        sys.exit(done.stderr)
+    return perf_counter() - begin
+
+
+def fig6(workers: int = 2) -> tuple[float, float, float]:
+    """Seconds of both sweeps from the shell; root mean square and largest relative error of their force constants."""
+    converged, errors, seconds = read_reference(), [], 0.0
+    for name in EXAMPLES:
+        with tempfile.TemporaryDirectory() as folder:
+            seconds += command(
+                "sweep", str(TOP / "examples" / name), "-o", folder, "--quiet", "--workers", str(workers)
+            )
+            (table,) = Path(folder).rglob("results.csv")
+            errors += _errors(name, table, converged)
+    return seconds, float(np.sqrt(np.mean(np.square(errors)))), float(np.abs(errors).max())
+
+
+def _errors(name: str, table: Path, converged: dict[tuple[str, str], float]) -> list[float]:
+    """Relative, of every row; rows come in the order of the reference's."""
+    with table.open(encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+    column = next(key for key in rows[0] if key.split(" ")[0] == "force_constant")
+    wanted = [value for (example, _), value in converged.items() if example == name]
+    return [float(row[column]) / value - 1 for row, value in zip(rows, wanted, strict=True)]
+
+
+def solved(spec: Spec, places: list[float], refinement: int = 1, method: str = "banded") -> list[TubularSolution]:
+    settings = Settings(1e-8, 60, "superlu" if method == "superlu" else "banded")
+    return solve_positions(
+        lambda z: cross_section(spec.actuator, z, spec.materials, 293.15), places, settings, refinement
+    )
+
+
+def constant(item: TubularSolution) -> float:
+    """N/A."""
+    return 1.5 * abs(space_vector(item.thrust_constants()))
+
+
+def single_solves(spec: Spec, runs: int) -> list[tuple[str, float, float]]:
+    """(words, seconds, relative error of the force constant) of a first position, and of a position after others."""
+    places = [float(z) for z in window_positions(spec.values)]
+    exact = constant(solved(spec, places[:1], 3)[0])
+    found = constant(solved(spec, places[:1])[0])
+    cold = best(runs, lambda: constant(solved(spec, places[:1])[0]))
+    plain = best(runs, lambda: constant(solved(spec, places[:1], method="superlu")[0]))
+    window = best(runs, lambda: [constant(item) for item in solved(spec, places)])
+    return [
+        ("one cold solve with thrust constants", cold, found / exact - 1),
+        ("the same by the plain path (SuperLU)", plain, found / exact - 1),
+        ("the next position, warm", (window - cold) / (len(places) - 1), found / exact - 1),
+    ]
+
+
+def gradient_ratio(spec: Spec, runs: int) -> tuple[float, float]:
+    """Seconds of a design's figures, and of their derivatives by three variables as a ratio to that."""
+    forward = best(runs, lambda: evaluate(spec))
+    both = best(runs, lambda: evaluate(spec, "fem", KEYS))
+    return forward, both / forward - 1
+
+
+def worker_memory() -> float:
+    """MB that a process needs at most for three designs of eight positions."""
+    code = (
+        "import resource, sys; from fluxbore.design.spec import load; from fluxbore.optimize.evaluate import evaluate; "
+        "spec = load(sys.argv[1]); [evaluate(spec) for _ in range(3)]; "
+        "print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)"
+    )
+    run = [sys.executable, "-c", code, str(TOP / "examples" / "ipehla.toml")]
+    return float(subprocess.run(run, capture_output=True, text=True, check=True).stdout) / 1024
+
+
+def line(words: str, seconds: float | None, target: str, remark: str) -> None:
+    shown = "" if seconds is None else f"{seconds:.3g} s"
+    print(f"| {words} | {shown} | {target} | {remark} |", flush=True)
+
+
+def show_table(spec: Spec, runs: int) -> None:
+    print(f"{platform.machine()}, {os.cpu_count()} cores; yardstick {1e3 * yardstick():.1f} ms (15 ms when quiet)\n")
+    print("| what | time | to reach | error, remark |\n|---|---|---|---|")
+    seconds, rms, worst = min(fig6() for _ in range(runs))
+    line("Fig. 6(a) + 6(b), 264 solves", seconds, "5 s", f"{100 * rms:.3f} % rms, {100 * worst:.3f} % at most")
+    targets = {"one cold solve with thrust constants": "0.05 s", "the next position, warm": "0.02 s"}
+    for words, seconds, error in single_solves(spec, 3 * runs):
+        line(words, seconds, targets.get(words, ""), f"{100 * error:+.3f} %")
+    line("the next design", None, "0.02 s", "as cold: a start from another design would make tables depend on order")
+    with tempfile.TemporaryDirectory() as folder:
+        example = str(TOP / "examples" / "ipehla-optimum.toml")
+        line("constrained optimum with gradients", command("optimize", example, "-o", folder, "--quiet"), "10 s", "")
+    network = ("evaluate", str(TOP / "examples" / "ipehla.toml"), "--fidelity", "network")
+    line("evaluate --fidelity network", min(command(*network) for _ in range(3)), "0.8 s", "from the shell")
+    line("peak memory of a worker", None, "300 MB", f"{worker_memory():.0f} MB")
+    forward, ratio = gradient_ratio(spec, runs)
+    line("one design, eight positions", forward, "", f"its gradient by three variables: {ratio:.2f} times that")
+
+
+def show_scaling(spec: Spec, runs: int) -> None:
+    """Time against unknowns, positions, designs and workers."""
+    middle = spec.actuator.mid_stroke
+    print("\n| mesh refinement | unknowns | one cold solve |\n|---|---|---|")
+    for refinement in (1, 2, 3):
+        (item,) = solved(spec, [middle], refinement)
+        seconds = best(runs, lambda n=refinement: constant(solved(spec, [middle], n)[0]))  # type: ignore[misc]
+        print(f"| {refinement} | {item.grid.mesh.topology.unknowns} | {seconds:.3f} s |", flush=True)
+    print("\n| positions | one design |\n|---|---|")
+    for count in (1, 2, 4, 8, 16):
+        places = [middle + 8e-3 * k / count for k in range(count)]
+        print(f"| {count} | {best(runs, lambda p=places: [constant(i) for i in solved(spec, p)]):.3f} s |")  # type: ignore[misc]
+    print("\n| designs | in one process |\n|---|---|")
+    for count in (1, 2, 4, 8):
+        widths = [spec.with_values({KEYS[0]: 1e-3 + 1e-4 * k}) for k in range(count)]
+        print(f"| {count} | {best(1, lambda w=widths: [evaluate(one) for one in w]):.3f} s |", flush=True)  # type: ignore[misc]
+    print("\n| workers | Fig. 6 from the shell |\n|---|---|")
+    for workers in (1, 2):
+        print(f"| {workers} | {fig6(workers)[0]:.1f} s |", flush=True)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description="Seconds and errors of the hybrid actuator's studies.")
+    parser.add_argument("--table", action="store_true", help="without the scaling")
+    parser.add_argument("--once", action="store_true", help="one run instead of the best of three")
+    arguments = parser.parse_args()
+    spec, runs = load(TOP / "examples" / "ipehla.toml"), 1 if arguments.once else 3
+    show_table(spec, runs)
+    if not arguments.table:
+        show_scaling(spec, runs)
+
+
+if __name__ == "__main__":
+    main()
