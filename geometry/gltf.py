@@ -14,12 +14,12 @@ from typing import Any
 
 import numpy as np
 
-from fluxbore import __version__
 from fluxbore.design.material_kinds import Material, Structural
 from fluxbore.geometry.assembly import Assembly
 from fluxbore.geometry.model import Shape
 from fluxbore.geometry.part import Body, Colour
 from fluxbore.geometry.placement import Placement
+from fluxbore.geometry.program import program
 from fluxbore.geometry.surface import Surface
 
 POINT_STEP, NORMAL_STEP = 2.0**-23, 2.0**-12
@@ -145,7 +145,7 @@ class _Writer:
     def file(self, root: int) -> bytes:
         self.buffer += bytes(-len(self.buffer) % 4)
         document = {
-            "asset": {"version": "2.0", "generator": f"fluxbore {__version__}"},
+            "asset": {"version": "2.0", "generator": program()},
             "scene": 0,
             "scenes": [{"nodes": [root]}],
             **self.lists,

@@ -15,11 +15,11 @@ from xml.sax.saxutils import quoteattr
 
 import numpy as np
 
-from fluxbore import __version__
 from fluxbore.geometry.assembly import Assembly
 from fluxbore.geometry.model import Shape
 from fluxbore.geometry.part import Colour
 from fluxbore.geometry.placement import Placement
+from fluxbore.geometry.program import program
 from fluxbore.geometry.surface import Surface, joined
 
 if TYPE_CHECKING:
@@ -60,7 +60,7 @@ def stl(surface: Surface, name: str) -> bytes:
     facets["numbers"][:, 0] = np.divide(across, lengths, out=np.zeros_like(across), where=lengths > 0)
     facets["numbers"][:, 1:] = corners
     # A header that begins with "solid" would pass for a file of text.
-    header = f"fluxbore {__version__}, mm: {name}".encode("ascii", "ignore")[:80].ljust(80)
+    header = f"{program()}, mm: {name}".encode("ascii", "ignore")[:80].ljust(80)
     return header + struct.pack("<I", len(triangles)) + facets.tobytes()
 
 
@@ -110,7 +110,7 @@ def _model(assembly: Assembly, shapes: Sequence[Shape]) -> list[str]:
     return [
         f'<?xml version="1.0" encoding="UTF-8"?>\n<model unit="millimeter" xml:lang="en-US" xmlns="{CORE}">',
         f'<metadata name="Title">{title}</metadata>',
-        f'<metadata name="Application">fluxbore {__version__}</metadata>',
+        f'<metadata name="Application">{program()}</metadata>',
         f'<resources><basematerials id="1">{bases}</basematerials>',
         *objects,
         "</resources><build>",

@@ -13,9 +13,10 @@ from collections.abc import Iterable
 from typing import Any
 
 from fluxbore.design.errors import MissingLibraryError, one_line
+from fluxbore.geometry.program import program
 from fluxbore.geometry.sheet import LAYERS, Circle, Dimension, Ellipse, Filled, Hatch, Place, Sheet, Stroke, Text
 from fluxbore.geometry.sheet_dimension import ARROW, BEYOND, DECIMALS, GAP
-from fluxbore.geometry.sheet_frame import SIZES, program
+from fluxbore.geometry.sheet_frame import SIZES
 from fluxbore.geometry.sheet_text import SMALL
 
 APPLICATION = "FLUXBORE"

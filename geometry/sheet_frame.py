@@ -7,10 +7,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from importlib.metadata import PackageNotFoundError, version
 
 from fluxbore.design.errors import one_line
 from fluxbore.design.title_block import TitleBlock
+from fluxbore.geometry.program import program
 from fluxbore.geometry.sheet import Box, Circle, Item, Place, Stroke, Text
 from fluxbore.geometry.sheet_text import CAPTION, LARGE, SMALL, fitted, text_width, wrapped
 
@@ -75,14 +75,6 @@ def frame(size: str, block: TitleBlock, words: TitleWords, scale: float | None) 
     ):
         items.append(Stroke("FRAME", (outer, end)))
     return items + _title_block((right - TITLE_WIDTH, low), size, block, words, scale)
-
-
-def program() -> str:
-    """The program's name with its version."""
-    try:
-        return f"fluxbore {version('fluxbore')}"
-    except PackageNotFoundError:  # run from a bare checkout
-        return "fluxbore"
 
 
 def _title_block(corner: Place, size: str, block: TitleBlock, words: TitleWords, scale: float | None) -> list[Item]:

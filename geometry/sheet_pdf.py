@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, Any
 
 from fluxbore.design.errors import MissingLibraryError
 from fluxbore.geometry.hatch_lines import hatch_lines
+from fluxbore.geometry.program import program
 from fluxbore.geometry.sheet import LAYERS, Circle, Ellipse, Filled, Hatch, Sheet, Stroke, Text, parts_of
-from fluxbore.geometry.sheet_frame import SIZES, program
+from fluxbore.geometry.sheet_frame import SIZES
 from fluxbore.geometry.sheet_svg import CAPITALS, DASHES
 from fluxbore.geometry.sheet_text import text_width
 

@@ -6,8 +6,9 @@ from collections.abc import Iterable
 from html import escape
 
 from fluxbore.geometry.hatch_lines import hatch_lines
+from fluxbore.geometry.program import program
 from fluxbore.geometry.sheet import LAYERS, Circle, Ellipse, Filled, Hatch, Place, Sheet, Stroke, Text, parts_of
-from fluxbore.geometry.sheet_frame import SIZES, program
+from fluxbore.geometry.sheet_frame import SIZES
 from fluxbore.geometry.sheet_text import text_width
 
 DASHES = {"DASHED": "3 1.2", "CENTER": "8 1.2 1.2 1.2"}

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime
-from importlib.metadata import PackageNotFoundError, version
 from typing import TYPE_CHECKING
 
 from fluxbore.design.materials import Material
@@ -19,6 +18,7 @@ from fluxbore.geometry.file_names import PARTS, file_name, item_stems
 from fluxbore.geometry.kernel import Shape, load_kernel
 from fluxbore.geometry.part import Body
 from fluxbore.geometry.parts_list import Item
+from fluxbore.geometry.program import program
 from fluxbore.geometry.solid import shape
 from fluxbore.geometry.step_products import Catalogue, tree
 from fluxbore.geometry.step_text import Header, with_header
@@ -63,7 +63,7 @@ class _Writer:
     def __init__(self, schema: str, title: TitleBlock) -> None:
         self._schema, self._title = schema, title
         self._time = datetime.now(UTC).isoformat(timespec="seconds")
-        self._program = _program()
+        self._program = program()
         self._solids: dict[Body, Shape] = {}
 
     def document(self) -> Document:
@@ -84,10 +84,3 @@ class _Writer:
         if body not in self._solids:
             self._solids[body] = shape(body)
         return self._solids[body]
-
-
-def _program() -> str:
-    try:
-        return f"fluxbore {version('fluxbore')}"
-    except PackageNotFoundError:  # run from a bare checkout
-        return "fluxbore"
