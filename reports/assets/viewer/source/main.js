@@ -34,7 +34,7 @@ function run(place, model, data) {
   const parts = element("details", {}, element("summary", {}, "Show, hide or find parts"), element("div", { class: "scroll", tabindex: "0", role: "region", "aria-label": "Parts of the live view" }, list));
   const stage = element("div", { class: "stage" }, canvas, controls, told, parts);
   const view = new View(canvas, model); // raises where there is no WebGL; then nothing of the page has changed
-  place.append(stage);
+  place.prepend(stage);
   place.dataset.live = "yes";
 
   const orbit = new Orbit(view.camera, canvas, {
