@@ -68,7 +68,9 @@ def scatter(table: DesignTable) -> Drawing:
 def parallel(table: DesignTable) -> Drawing:
     """Every column an axis, every design a line across them; what the study's limits exclude is shaded."""
     places = [EDGE + i * (WIDTH - 2 * EDGE) / (len(table.columns) - 1) for i in range(len(table.columns))]
-    parts = ['<g class="designs">']
+    # Many lines would run into one surface.
+    faint = min(0.5, max(0.12, 30 / len(table.designs)))
+    parts = [f'<g class="designs" style="--faint:{faint:.2f}">']
     for number in _in_order(table.designs):
         item = table.designs[number]
         parts.append(f'<path class="{look(item)}" data-row="{number}" d="{_line(table.columns, places, item)}"/>')

@@ -223,7 +223,7 @@
   }
 
   function drag(target, svg, act) {
-    let from = null;
+    let from = null, latest = null;
     const place = (event) => {
       const view = svg.viewBox.baseVal, seen = svg.getBoundingClientRect();
       return { x: ((event.clientX - seen.left) * view.width) / seen.width, y: ((event.clientY - seen.top) * view.height) / seen.height };
@@ -233,7 +233,12 @@
       from = place(event);
       target.setPointerCapture(event.pointerId);
     });
-    target.addEventListener("pointermove", (event) => { if (from) act(from, place(event)); });
+    // Once a frame: with a thousand lines a frame takes longer than the next movement.
+    target.addEventListener("pointermove", (event) => {
+      if (!from) return;
+      if (!latest) requestAnimationFrame(() => { if (from) act(from, latest); latest = null; });
+      latest = place(event);
+    });
     const end = (event) => {
       if (from && event.type === "pointerup") act(from, place(event));
       from = null;
