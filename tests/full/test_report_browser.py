@@ -154,7 +154,7 @@ def test_print_is_a4_light_and_whole(chromium: Chromium, path: Path) -> None:
 
 
 def test_print_opens_what_is_folded(chromium: Chromium, path: Path) -> None:
-    """Catches details that paper keeps shut; what paper leaves out as a whole, such as the live view, does not count."""
+    """Catches details that paper keeps shut; what paper leaves out as a whole, as the live view, does not count."""
     with chromium.open(path) as page:
         page.prefer(medium="print")
         hidden = page.evaluate(
