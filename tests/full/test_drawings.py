@@ -45,7 +45,7 @@ RANGES = {
 def test_random_designs_are_drawn_legibly_and_whole(name: str) -> None:
     rng = np.random.default_rng(30)
     drawn = 0
-    for _ in range(400):
+    for _ in range(60):
         values = {key: f"{np.exp(rng.uniform(*np.log(limits))):.6g} mm" for key, limits in RANGES[name].items()}
         try:
             spec = load(EXAMPLES / f"{name}.toml", values)
@@ -53,7 +53,7 @@ def test_random_designs_are_drawn_legibly_and_whole(name: str) -> None:
         except DesignError:
             continue
         drawn += 1
-    assert drawn > 40
+    assert drawn > 10
 
 
 @pytest.mark.parametrize("name", ["ipehla", "ipehla-optimum", "prehydra", "rotlin", "team22", "fabry"])
