@@ -109,24 +109,28 @@ def _remarks(assembly: Assembly) -> list[str]:
 def _views(assembly: Assembly, section: Section, scale: float) -> list[Item]:
     """The section and its dimensions about the model's origin."""
     items = section_view(section, scale)
-    lines = _dimensions(assembly, scale, 0.0)
+    lines = _dimensions(assembly, scale, 0.0, own_rows=False)
     if touching(lines):  # a number that stands above the part, for want of room between its arrows
-        lines = _dimensions(assembly, scale, ASIDE)
+        lines = _dimensions(assembly, scale, ASIDE, own_rows=False)
+    if touching(lines):  # neighbours in a row that are shorter than their numbers
+        lines = _dimensions(assembly, scale, ASIDE, own_rows=True)
     return [*items, *lines]
 
 
-def _dimensions(assembly: Assembly, scale: float, aside: float) -> list[Item]:
-    """aside : mm by which the rows above the drawing are farther from it."""
+def _dimensions(assembly: Assembly, scale: float, aside: float, *, own_rows: bool) -> list[Item]:
+    """aside : mm by which the rows above the drawing are farther from it. own_rows : none is shared by two lengths."""
     low, high, reach = (value * MM * scale for value in extent(assembly))
     measures = assembly.measures or overall(assembly.parts, ROW / MM / scale)
     across = [measure for measure in measures if measure.across]
+    below = sorted((m for m in measures if not m.across and m.place > 0), key=lambda m: (m.place, m.length))
     columns = iter(_columns([measure.place * MM * scale for measure in across], low, high))
 
     def line(measure: Measure) -> float:
         """x of one across; else y of its row, counted from 1 below the drawing and from -1 above it."""
         if measure.across:
             return next(columns)
-        row = reach + 2 + ROW * abs(measure.place)
+        place = 1.0 + below.index(measure) if own_rows and measure.place > 0 else abs(measure.place)
+        row = reach + 2 + ROW * place
         return -row if measure.place > 0 else row + aside
 
     return [dimension(measure, scale, line(measure)) for measure in measures]

@@ -44,16 +44,17 @@ RANGES = {
 @pytest.mark.parametrize("name", list(RANGES))
 def test_random_designs_are_drawn_legibly_and_whole(name: str) -> None:
     rng = np.random.default_rng(30)
-    drawn = 0
-    for _ in range(60):
+    drawn = tried = 0
+    while drawn < 20:
+        tried += 1
+        assert tried < 1000
         values = {key: f"{np.exp(rng.uniform(*np.log(limits))):.6g} mm" for key, limits in RANGES[name].items()}
         try:
             spec = load(EXAMPLES / f"{name}.toml", values)
-            check_drawings(spec, read=drawn % 20 == 0)
+            check_drawings(spec, read=drawn % 10 == 0)
         except DesignError:
             continue
         drawn += 1
-    assert drawn > 10
 
 
 @pytest.mark.parametrize("name", ["ipehla", "ipehla-optimum", "prehydra", "rotlin", "team22", "fabry"])
