@@ -222,8 +222,23 @@
     return made;
   }
 
+  // Browsers do not heed touch-action inside a drawing: a finger on an axis is ours, one on the scatter if it goes across.
+  function claim(target) {
+    let start = null, ours = false;
+    target.addEventListener("touchstart", (event) => {
+      start = event.touches[0];
+      ours = target !== plane;
+    }, { passive: true });
+    target.addEventListener("touchmove", (event) => {
+      const now = event.touches[0];
+      ours ||= Math.abs(now.clientX - start.clientX) > Math.abs(now.clientY - start.clientY);
+      if (ours && event.cancelable) event.preventDefault();
+    }, { passive: false });
+  }
+
   function drag(target, svg, act) {
-    let from = null, latest = null;
+    claim(target);
+    let from = null, latest = null, before = [];
     const place = (event) => {
       const view = svg.viewBox.baseVal, seen = svg.getBoundingClientRect();
       return { x: ((event.clientX - seen.left) * view.width) / seen.width, y: ((event.clientY - seen.top) * view.height) / seen.height };
@@ -231,6 +246,7 @@
     target.addEventListener("pointerdown", (event) => {
       if (event.button) return;
       from = place(event);
+      before = [...ranges];
       target.setPointerCapture(event.pointerId);
     });
     // Once a frame: with a thousand lines a frame takes longer than the next movement.
@@ -240,8 +256,13 @@
       latest = place(event);
     });
     const end = (event) => {
-      if (from && event.type === "pointerup") act(from, place(event));
+      const begun = from;
       from = null;
+      if (begun && event.type === "pointerup") return act(begun, place(event));
+      if (!begun) return;
+      // It was the browser's gesture after all.
+      ranges.splice(0, ranges.length, ...before);
+      update();
     };
     for (const name of ["pointerup", "pointercancel"]) target.addEventListener(name, end);
   }
