@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from fluxbore.design.air_ports import AIR_PORTS
 from fluxbore.design.contact_force_keys import CONTACT_FORCE_KEYS
 from fluxbore.design.hybrid_operating_keys import OPERATING_KEYS
 from fluxbore.design.keys import Alternatives, Key
 from fluxbore.design.materials import Conductor, Material, PermanentMagnet
-from fluxbore.design.screw_thread import PORTS, SCREWS
 from fluxbore.design.seal_keys import FIN_KEYS, SEAL_KEYS
 from fluxbore.design.solver_keys import solver_keys
+from fluxbore.design.threads import SCREWS
 
 LARGEST_LENGTH = 10.0
 """m; beyond it a length is a slip of the unit, not an actuator."""
@@ -160,7 +161,7 @@ HYBRID_KEYS: tuple[Key, ...] = (
         "actuator.end_caps.port_thread",
         "thread of the air port in each end cap; the flow bore beneath it follows",
         kind="word",
-        choices=tuple(PORTS),
+        choices=tuple(AIR_PORTS),
     ),
     _length("end_caps.rod_clearance", "", "radial clearance of the rod-end cap around the shaft", zero=True),
     _length(

@@ -6,6 +6,7 @@ import math
 from dataclasses import fields
 from typing import Any, TypeVar
 
+from fluxbore.design.air_ports import AIR_PORTS
 from fluxbore.design.errors import SpecError
 from fluxbore.design.hybrid import (
     PHASES,
@@ -19,7 +20,6 @@ from fluxbore.design.hybrid import (
     Winding,
 )
 from fluxbore.design.keys import Value, Values
-from fluxbore.design.screw_thread import PORTS
 from fluxbore.design.units import format_quantity
 
 _Part = TypeVar("_Part", BackYoke, Winding, Cylinder, Mover, Shaft, Piston, EndCaps)
@@ -79,7 +79,7 @@ def resolve(given: Values) -> dict[str, Value]:
     values.setdefault(winding + "insulated_diameter", ENAMELLED * number(winding + "wire_diameter"))
     caps = "actuator.end_caps."
     if caps + "port_thread" in values:
-        values[caps + "port_diameter"] = PORTS[str(values[caps + "port_thread"])].flow
+        values[caps + "port_diameter"] = AIR_PORTS[str(values[caps + "port_thread"])].flow
     if "actuator.piston.material" in values:
         values.setdefault("actuator.piston.fin_material", values["actuator.piston.material"])
     values.setdefault("operating_point.peak_current", number("operating_point.current"))

@@ -18,7 +18,7 @@ import math
 from dataclasses import dataclass
 
 from fluxbore.design.pressure_vessel import UNLOADED
-from fluxbore.design.screw_thread import ScrewThread
+from fluxbore.design.threads import Thread
 
 SCREW_YIELD = 450e6
 """Pa, R_p0.2 of stainless screws of class A2-70 (ISO 3506-1)."""
@@ -28,7 +28,7 @@ SCREW_YIELD = 450e6
 class ScrewJoint:
     """One cap's screws. bore, wall : of the tube. edge : e. depth : h. Lengths in m, yield stresses in Pa."""
 
-    thread: ScrewThread
+    thread: Thread
     count: int
     bore: float
     wall: float
@@ -42,9 +42,9 @@ def capacity(joint: ScrewJoint) -> float:
     """Force on a cap (N) at which the first of the four yields."""
     thread, count = joint.thread, joint.count
     return min(
-        count * thread.major * joint.wall * joint.tube_yield,
+        count * thread.diameter * joint.wall * joint.tube_yield,
         2 * count * (joint.edge - thread.clearance / 2) * joint.wall * joint.tube_yield / math.sqrt(3),
-        count * thread.major * joint.depth * joint.cap_yield,
+        count * thread.diameter * joint.depth * joint.cap_yield,
         count * math.pi / 4 * thread.core**2 * SCREW_YIELD / math.sqrt(3),
     )
 

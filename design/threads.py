@@ -45,6 +45,8 @@ def _pipe(size: str, diameter: float, pitch: float, core: float, stud: float) ->
 SCREWS: dict[str, Thread] = {
     thread.name: thread
     for thread in (
+        _metric(1.6, 0.35, 1.8),
+        _metric(2, 0.4, 2.4),
         _metric(2.5, 0.45, 2.9),
         _metric(3, 0.5, 3.4),
         _metric(4, 0.7, 4.5),

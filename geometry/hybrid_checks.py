@@ -71,7 +71,7 @@ def _check_port(actuator: HybridActuator) -> None:
     caps, thread = actuator.end_caps, port(actuator).thread
     shortest = 1.2 * caps.port_diameter + 2 * THINNEST
     if thread is not None:
-        shortest = max(shortest, thread.major + LEAST_WALL)
+        shortest = max(shortest, thread.diameter + LEAST_WALL)
     if caps.flange_length < shortest:
         raise DesignError(
             "actuator.end_caps.flange_length must hold the port and a wall on both sides of it, at least "

@@ -10,9 +10,10 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from fluxbore.design.air_ports import AIR_PORTS, AirPort
 from fluxbore.design.hybrid import HybridActuator
-from fluxbore.design.screw_thread import PORTS, SCREWS, PortThread, ScrewThread
 from fluxbore.design.seal_gland import SealGland, designed_gland, designed_rod_gland
+from fluxbore.design.threads import SCREWS, Thread
 
 LEAST_WALL = 1e-3
 """Beside a thread: what a lathe leaves without care."""
@@ -58,7 +59,7 @@ class Ring:
 class Screws:
     """Radial set screws. s : of their axes. bottom : of the tapped holes, from the axis."""
 
-    thread: ScrewThread
+    thread: Thread
     count: int
     s: float
     bottom: float
@@ -91,7 +92,7 @@ class Port:
 
     s: float
     flow: float
-    thread: PortThread | None
+    thread: AirPort | None
     depth: float
 
 
@@ -99,7 +100,7 @@ class Port:
 class Mounting:
     """Threaded holes along the axis in the cap end's outer face. radius : of their circle."""
 
-    thread: ScrewThread
+    thread: Thread
     radius: float
     depth: float
     angles: tuple[float, ...]
@@ -168,8 +169,8 @@ def _screws(actuator: HybridActuator, low: float, high: float) -> Screws | None:
     thread, s, bottom = SCREWS[caps.screw_thread], (low + high) / 2, passage + LEAST_WALL
     wound = (actuator.winding_end - actuator.winding_start) / 2
     free = (actuator.chamber[1] - actuator.chamber[0]) / 2 + s - thread.clearance / 2 >= wound
-    held = actuator.cylinder.inner_diameter / 2 - bottom >= LEAST_HOLD * thread.major
-    apart = 2 * math.pi * bottom >= 1.3 * thread.major * caps.screws
+    held = actuator.cylinder.inner_diameter / 2 - bottom >= LEAST_HOLD * thread.diameter
+    apart = 2 * math.pi * bottom >= 1.3 * thread.diameter * caps.screws
     if caps.screws and high - low >= thread.clearance and free and held and apart:
         return Screws(thread, caps.screws, s, bottom)
     return None
@@ -181,7 +182,7 @@ def port(actuator: HybridActuator) -> Port:
     s = spigot_length(actuator) + caps.flange_length / 2
     if caps.port_thread is None:
         return Port(s, caps.port_diameter, None, 0.0)
-    thread = PORTS[caps.port_thread]
+    thread = AIR_PORTS[caps.port_thread]
     room = (caps.flange_diameter - passage_diameter(actuator)) / 2 - LEAST_WALL
     return Port(s, caps.port_diameter, thread, min(thread.depth, room))
 
@@ -215,15 +216,15 @@ def mounting(actuator: HybridActuator) -> Mounting | None:
     """On a circle in the middle of the cap end's flange, clear of the port; None where they do not fit."""
     caps, passage = actuator.end_caps, passage_diameter(actuator) / 2
     thread, count, outer = SCREWS[caps.mounting_thread], caps.mounting_holes, caps.flange_diameter / 2
-    circle, half = (passage + outer) / 2, SCREWS[caps.mounting_thread].major / 2
+    circle, half = (passage + outer) / 2, SCREWS[caps.mounting_thread].diameter / 2
     angles = tuple((2 * i + 1) * math.pi / count for i in range(count))
-    tapped = PORTS[caps.port_thread].major if caps.port_thread else caps.port_diameter
+    tapped = AIR_PORTS[caps.port_thread].diameter if caps.port_thread else caps.port_diameter
     beside = min((circle * abs(math.sin(angle)) for angle in angles if math.cos(angle) > 0), default=math.inf)
     clear = beside - half >= tapped / 2 + LEAST_WALL
     walled = (outer - passage) / 2 - half >= LEAST_WALL
-    apart = 2 * math.pi * circle >= 2 * thread.major * count
-    depth = min(2 * thread.major, 0.75 * caps.flange_length)
-    if not (count and clear and walled and apart and depth >= thread.major):
+    apart = 2 * math.pi * circle >= 2 * thread.diameter * count
+    depth = min(2 * thread.diameter, 0.75 * caps.flange_length)
+    if not (count and clear and walled and apart and depth >= thread.diameter):
         return None
     return Mounting(thread, circle, depth, angles)
 

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from fluxbore.design.errors import DesignError
 from fluxbore.design.hybrid import BackYoke, Cylinder, EndCaps, HybridActuator, Mover, Piston, Shaft, Winding
-from fluxbore.design.screw_thread import SCREWS
+from fluxbore.design.threads import SCREWS
 from fluxbore.geometry import assembly as geometry
 from fluxbore.geometry import hybrid_layout, hybrid_parts
 from fluxbore.geometry import part as parts_of
