@@ -146,14 +146,17 @@ def touching(items: Iterable[Item]) -> bool:
 
 
 def apart(items: Iterable[Item], margin: float = 0.4) -> list[Item]:
-    """The items with extension lines and edges interrupted where they would run through the text of another."""
+    """The items with extension lines and edges interrupted where they would run through a text.
+
+    A dimension's own text lies nearer to its lines than the margin, and counts without it.
+    """
     every = list(items)
-    boxes = [(text, _wider(text.box, margin)) for text in texts_of(every)]
+    boxes = [(text, text.box, _wider(text.box, margin)) for text in texts_of(every)]
 
     def clear(stroke: Stroke | Filled | Circle, own: Text | None) -> list[Stroke | Filled | Circle]:
         if not isinstance(stroke, Stroke) or stroke.closed:
             return [stroke]
-        return [*_cut(stroke, [box for text, box in boxes if text is not own])]
+        return [*_cut(stroke, [box if text is own else wide for text, box, wide in boxes])]
 
     result: list[Item] = []
     for item in every:

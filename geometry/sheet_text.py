@@ -6,6 +6,8 @@ what fits with it fits with theirs.
 
 from __future__ import annotations
 
+import re
+
 SMALL, LARGE, HEADING = 2.5, 3.5, 5.0
 """mm, of dimensions and notes, of titles, and of the name of the whole."""
 
@@ -43,13 +45,19 @@ def text_width(text: str, size: float) -> float:
 
 
 def fitted(text: str, width: float, size: float, least: float = CAPTION) -> tuple[str, float]:
-    """The text and the height at which it fits into a width (mm): smaller, and cut where it would become too small."""
+    """The text and the height at which it fits into a width (mm): smaller, and cut where it would become too small.
+
+    A part's own number, behind the last hyphen, stays: without it all parts of a long number would be alike.
+    """
     size = min(size, max(least, size * width / max(text_width(text, size), 1e-9)))
     if text_width(text, size) <= width * (1 + 1e-9):
         return text, size
-    while text and text_width(text + "...", size) > width:
+    own = re.search(r"-[0-9]{3,4}$", text)
+    end = "..." + (own.group() if own else "")
+    text = text[: own.start()] if own else text
+    while text and text_width(text + end, size) > width:
         text = text[:-1]
-    return text.rstrip() + "...", size
+    return text.rstrip() + end, size
 
 
 def wrapped(text: str, width: float, size: float) -> list[str]:

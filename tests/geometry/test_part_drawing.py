@@ -27,7 +27,7 @@ from fluxbore.geometry.part import AxialHole, Fit, Hole, Part
 from fluxbore.geometry.part_dimensions import chamfers, diameters, hole_groups, levels
 from fluxbore.geometry.part_drawing import part_sheet
 from fluxbore.geometry.parts_list import Item, parts_list
-from fluxbore.geometry.sheet import Dimension, Sheet, texts_of
+from fluxbore.geometry.sheet import Dimension, Sheet, Stroke, texts_of
 from fluxbore.geometry.sheet_dimension import spread
 from fluxbore.geometry.sheet_dxf import dxf_text
 from fluxbore.geometry.sheet_frame import SIZES
@@ -94,6 +94,19 @@ def test_fits_are_shown_as_class_and_limits_where_their_size_is() -> None:
     assert "Pin: 4 m6 (+0.012/+0.004)." in shown  # no dimension has this size
     with pytest.raises(DesignError, match='got "Q8"'):
         sheet_of(a_part(fits=(Fit("bore", 10 * MM, "Q8"),)))
+
+
+def test_no_line_runs_through_the_text_of_a_narrow_fit() -> None:
+    sheet = sheet_of(a_part(fits=(Fit("bore", 10 * MM, "H8"), Fit("seat", 24 * MM, "f7"))))
+    dimensions = [item for item in sheet.items if isinstance(item, Dimension) and item.kind == "across"]
+    assert any("H8" in item.shown.text for item in dimensions)
+    for item in dimensions:
+        left, low, right, high = item.shown.box
+        for stroke in item.strokes:
+            if isinstance(stroke, Stroke):
+                (x0, y0), (x1, y1) = stroke.points[0], stroke.points[-1]
+                across = min(x0, x1) < right - 1e-6 and max(x0, x1) > left + 1e-6
+                assert not (across and low + 1e-6 < y0 < high - 1e-6 and low + 1e-6 < y1 < high - 1e-6), item.name
 
 
 def test_drillings_stand_in_a_table_with_count_thread_and_pitch_circle() -> None:
@@ -225,6 +238,11 @@ def test_words_shrink_before_they_are_cut_and_break_at_spaces() -> None:
     text, size = fitted("a" * 200, 20.0, 2.5)
     assert text.endswith("...")
     assert text_width(text, size) <= 20.0
+    for item in ("-001", "-002"):  # else all parts of a long number would be alike
+        text, size = fitted("ACME-PNEUMATICS-2026-000417-B" + item, 20.0, 2.5)
+        assert text.startswith("ACME")
+        assert text.endswith("..." + item)
+        assert text_width(text, size) <= 20.0
     assert wrapped("one two three", text_width("one two", 2.5), 2.5) == ["one two", "three"]
 
 
