@@ -78,7 +78,11 @@ def _rod_end(actuator: HybridActuator, spigot: Spigot, guide: RodGuide | None) -
         outline += ((bore, high), (floor, high), (floor, low), (bore, low))
     outline += ((bore, bottom), (passage, bottom))
     note = "no room for a seal and a bush: bored for the rod" if guide is None else "bush pressed in from outside"
-    fits = () if guide is None else (Fit("bush seat", 2 * seat, "H7"),)
+    if caps.nose_length:  # a drawing tells a diameter once, where its fit is
+        note += f"; nose {_mm(2 * nose)} in diameter, without the spigot's fit"
+    fits: tuple[Fit, ...] = (Fit("clearance of the rod", 2 * bore, "H9"),)
+    if guide is not None:
+        fits += (Fit("bush seat", 2 * seat, "H7"), Fit("floor of the rod seal", guide.ring.gland.bore, "H9"))
     return _cap(actuator, spigot, 1, outline, (), fits, note)
 
 
@@ -112,6 +116,8 @@ def _cap(
     caps, inner = actuator.end_caps, actuator.cylinder.inner_diameter / 2
     screws, sealed = spigot.screws, spigot.ring is not None
     held = "bonded into the tube" if screws is None else f"held by {screws.count} set screws {screws.thread.name}"
+    if spigot.ring is not None:
+        fits += (Fit("floor of the O-ring", spigot.ring.gland.groove_diameter, "h9"),)
     notes = [
         note,
         held + ("" if sealed else ", sealed by the compound" if screws is None else ", sealed by a compound"),

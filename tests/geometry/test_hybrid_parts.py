@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 
 from fluxbore.design.errors import DesignError
 from fluxbore.design.hybrid import BackYoke, Cylinder, EndCaps, HybridActuator, Mover, Piston, Shaft, Winding
+from fluxbore.design.iso286 import limits
 from fluxbore.design.threads import SCREWS
 from fluxbore.geometry import assembly as geometry
 from fluxbore.geometry import hybrid_layout, hybrid_parts
@@ -152,6 +153,24 @@ def test_the_fins_squeeze_is_the_paper_s_overlap() -> None:
     for one in squeezes:
         assert one.designed
         assert one.volume * 1e9 == pytest.approx(expected, rel=1e-9)
+
+
+def test_caps_made_to_their_tolerances_squeeze_their_seals_and_clear_the_rod() -> None:
+    """General tolerances of 0.2 mm on a groove's floor would take half of the squeeze, and close the rod's bore."""
+    actuator = table_ii()
+    whole = hybrid_parts.assembly(actuator, 0.0)
+    parts = {part.name: part for part in whole.parts if isinstance(part, parts_of.Part)}
+    section = actuator.end_caps.ring_section
+    for name in ("end cap, cap end", "end cap, rod end"):
+        fits = {fit.feature: fit for fit in parts[name].fits}
+        floor, spigot = fits["floor of the O-ring"], fits["spigot"]
+        room = (spigot.nominal - floor.nominal) / 2
+        spread = [change / 2 for change in limits(floor.nominal, floor.tolerance)]
+        assert max(abs(change) for change in spread) < 0.1 * (section - room)
+    rod, seal, bore = parts["shaft"].fits[0], fits["floor of the rod seal"], fits["clearance of the rod"]
+    assert bore.nominal + limits(bore.nominal, bore.tolerance)[0] > rod.nominal + limits(rod.nominal, rod.tolerance)[1]
+    slack = (limits(seal.nominal, seal.tolerance)[1] - limits(rod.nominal, rod.tolerance)[0]) / 2
+    assert slack < 0.25 * (section - (seal.nominal - rod.nominal) / 2)
 
 
 def test_at_the_strokes_ends_the_pistons_touch_the_caps() -> None:
