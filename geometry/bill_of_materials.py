@@ -66,21 +66,28 @@ def _row(item: Item, revision: str) -> tuple[object, ...]:
     made = not part.bought
     return (
         item.number,
-        item.part_number,
-        item.drawing_number if made else "",
-        revision if made else "",
-        one_line(item.name),
+        _words(item.part_number),
+        _words(item.drawing_number) if made else "",
+        _words(revision) if made else "",
+        _words(item.name),
         part.group,
-        one_line(part.material) or "envelope only",
+        _words(part.material) or "envelope only",
         size_text(part),
         item.count,
         _mass(item.mass),
         _mass(item.mass * item.count),
         *_inertia(item),
         item.source,
-        one_line(part.bought),
-        one_line(item_note(item)),
+        _words(part.bought),
+        _words(item_note(item)),
     )
+
+
+def _words(text: str) -> str:
+    """On one line. Spreadsheets run what begins like a formula, whoever wrote the specification; with an apostrophe
+    before it they show it."""
+    line = one_line(text)
+    return f"'{line}" if line.lstrip().startswith(("=", "+", "-", "@")) else line
 
 
 def _inertia(item: Item) -> tuple[str, ...]:

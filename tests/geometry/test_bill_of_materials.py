@@ -10,6 +10,7 @@ from fluxbore.actuators import assembly_of
 from fluxbore.cli import main
 from fluxbore.design.materials import standard
 from fluxbore.design.spec import load
+from fluxbore.design.title_block import TitleBlock
 from fluxbore.geometry.assembly import Assembly
 from fluxbore.geometry.bill_of_materials import HEAD, bill_of_materials
 from fluxbore.geometry.mass import part_masses, total
@@ -59,6 +60,15 @@ def test_words_with_commas_quotes_and_breaks_stay_in_their_cells() -> None:
     assert (second["make or buy"], second["designation"], second["drawing number"]) == ("buy", "DIN 471 - 8 x 0.8", "")
     assert carried["name"] == "carried along, not drawn"
     assert float(carried["mass total (kg)"]) == 0.25
+
+
+def test_no_word_is_a_formula_to_a_spreadsheet() -> None:
+    block = rectangle(2 * MM, 5 * MM, 0.0, 30 * MM)
+    parts = (Part("@SUM(A1)", "tube", "stator", "brass", (0.5, 0.5, 0.5), block, note="+1"),)
+    whole = Assembly("a", parts, 0.0, title=TitleBlock(part_number='=HYPERLINK("x")', revision="-"))
+    (row,) = rows_of(bill_of_materials(whole, parts_list(whole, standard())))
+    assert row["part number"] == '\'=HYPERLINK("x")-001'
+    assert (row["name"], row["revision"], row["note"]) == ("'@SUM(A1)", "'-", "'+1")
 
 
 def test_the_command_writes_it(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
