@@ -138,6 +138,8 @@ def _read(raw: Mapping[str, Any], kind: Kind, base: Path) -> Spec:
         if key.default is None:
             raise SpecError(f"{key.name} ({key.doc}) is missing.")
         given[key.name] = key.default
+    order = {key.name: place for place, key in enumerate(kind.keys)}
+    notes.sort(key=lambda note: order[note.key])  # as a written file has them
     spec = Spec(kind, given, Study(), tuple(notes), library, own)
     _check_materials(spec)
     if kind.check is not None:

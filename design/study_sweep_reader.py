@@ -43,11 +43,11 @@ def read_sweep(raw: Mapping[str, Any], where: str, known: Mapping[str, Key], fig
 def _published(
     raw: object, where: str, axes: tuple[Axis, ...], known: Mapping[str, Key], figure: str | None
 ) -> tuple[tuple[float, float], ...]:
-    """Pairs of the axis's value and the objective's."""
+    """Pairs of the axis's value and the objective's; none without an objective."""
     if len(axes) != 1:
         raise SpecError(f"{where} needs exactly one axis; got {len(axes)}.")
-    if figure is None:
-        raise SpecError(f"{where} needs study.objective, whose figure the points are of; got none.")
+    if figure is None:  # a sweep without a goal draws no curve that they could stand beside
+        return ()
     if not isinstance(raw, list) or not raw or not all(isinstance(pair, list) and len(pair) == 2 for pair in raw):
         raise SpecError(f"{where} must be a list of pairs [value, {figure}]; got {shown(raw)}.")
     key, value = loose(known[axes[0].key]), figure_key(figure)

@@ -235,7 +235,6 @@ WRONG = {
     axes(f'{{ key = "{RING}", values = ["1 mm"] }}') + "\nname = 3": "study.sweeps.0.name must be text in quotes; got 3.",
     axes(f'{{ key = "{RING}", values = ["1 mm"] }}') + "\nsource = []": "study.sweeps.0.source must be text in quotes; got [].",
     axes(f'{{ key = "{RING}", values = ["1 mm"] }}') + '\npublished_optimum = "1 T"': "study.sweeps.0.published_optimum must be a length",
-    axes(f'{{ key = "{RING}", values = ["1 mm"] }}') + '\npublished = [["1 mm", "8 N/A"]]': "study.sweeps.0.published needs study.objective, whose figure the points are of; got none.",
     AIM + axes(f'{{ key = "{RING}", values = ["1 mm"] }}') + "\npublished = []": "study.sweeps.0.published must be a list of pairs [value, force_constant]; got [].",
     AIM + axes(f'{{ key = "{RING}", values = ["1 mm"] }}') + '\npublished = [["1 mm"]]': "study.sweeps.0.published must be a list of pairs [value, force_constant]",
     AIM + axes(f'{{ key = "{RING}", values = ["1 mm"] }}') + '\npublished = [["1 T", "8 N/A"]]': "study.sweeps.0.published.0.0 must be a length",

@@ -119,7 +119,7 @@ def test_without_a_supply_there_is_no_limit() -> None:
 @pytest.mark.parametrize(
     ("part", "material", "missing"),
     [
-        ("cylinder", "brass", ("cylinder_safety", "bore_dilation", "bore_clearance")),
+        ("cylinder", "brass", ("cylinder_safety", "cap_safety", "bore_dilation", "bore_clearance")),
         ("cylinder", "PEEK", ("eddy_loss", "bore_dilation", "bore_clearance")),
         ("shaft", "brass", ("shaft_safety",)),
         ("shaft", "PTFE", ("shaft_safety",)),
