@@ -13,7 +13,7 @@ from fluxbore.design.units import format_quantity
 from fluxbore.geometry.fits import fits, outline_of
 from fluxbore.geometry.hydrostatic_layout import RELIEF, SHANK, CylinderLayout
 from fluxbore.geometry.outline import rectangle
-from fluxbore.geometry.part import AxialHole, Colour, Fit, Hole, Part
+from fluxbore.geometry.part import AxialHole, AxisThread, Colour, Fit, Hole, Part
 
 SCREW_MATERIAL, BUSH_MATERIAL, WIPER_MATERIAL = "stainless steel 304", "POM", "NBR 70"
 """Of what is bought."""
@@ -67,6 +67,7 @@ def cap_end(place: CylinderLayout, material: str) -> Part:
         + (", spot face around the port for the connector's seal" if thread is not None else ""),
         axial_holes=_mounting_holes(place),
         fits=fits(("spigot", 2 * place.r_bore, "f7")),
+        axis_threads=(AxisThread(2 * place.r_thread, _thread_name(2 * place.r_thread)),),
     )
 
 

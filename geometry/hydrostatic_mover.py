@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from fluxbore.design.o_rings import designation
+from fluxbore.design.threads import SCREWS, Thread
 from fluxbore.design.units import format_quantity
 from fluxbore.geometry.fits import fits
 from fluxbore.geometry.gland_profile import ring_profile
 from fluxbore.geometry.hydrostatic_layout import LAND_EDGE, ROD_EDGE, ROD_OUTSIDE, CylinderLayout
-from fluxbore.geometry.part import Colour, Part
+from fluxbore.geometry.part import AxisThread, Colour, Part
 
 RING_MATERIAL = "NBR 70"
 """Of the O-ring, as it is bought."""
@@ -76,5 +77,15 @@ def rod(place: CylinderLayout, material: str, position: float) -> Part:
         (0.0, end),
     )
     sizes = fits(("rod", 2 * place.r_rod, "h8"), ("end in the piston", 2 * place.r_rod_spigot, "h6"))
-    note = f"{HELD}; outer end threaded for the eye over {ROD_OUTSIDE:g} diameters"
-    return Part("rod", "rod", "mover", material, COLOURS["rod"], profile, note=note, fits=sizes)
+    threaded = 2 * ROD_OUTSIDE * place.r_rod
+    thread = eye_thread(2 * place.r_rod)
+    note = f"{HELD}; outer end threaded {thread.name if thread else ''} for the eye".replace("  ", " ")
+    note += f" over {format_quantity(threaded, 'length', 4)}"
+    cut = () if thread is None else (AxisThread(2 * place.r_rod, thread.tapped(threaded)),)
+    return Part("rod", "rod", "mover", material, COLOURS["rod"], profile, note=note, fits=sizes, axis_threads=cut)
+
+
+def eye_thread(diameter: float) -> Thread | None:
+    """The largest coarse thread that a rod of this diameter (m) holds; None where the table has none of its size."""
+    held = [screw for screw in SCREWS.values() if 0.8 * diameter < screw.diameter < diameter * (1 + 1e-9)]
+    return max(held, key=lambda screw: screw.diameter, default=None)

@@ -28,7 +28,7 @@ from fluxbore.geometry.lead_screw_layout import (
     translator_end,
 )
 from fluxbore.geometry.outline import Profile, rectangle, turned
-from fluxbore.geometry.part import AxialHole, Colour, Fit, Part, mass
+from fluxbore.geometry.part import AxialHole, AxisThread, Colour, Fit, Part, mass
 
 HOLES = 6
 """Screws of an end shield."""
@@ -202,7 +202,8 @@ def _translator_end(end: TranslatorEnd, fittings: Fittings, material: str) -> Pa
     if tapped and thread is not None:
         note += f"; tapped in the middle {thread.tapped(depth)}"
     sizes = fits(("spigot", 2 * end.r_spigot, "h6"), ("shaft end", 2 * end.r_stub, "h6"))
-    return _part("translator end", "stator", material, profile, note, sizes)
+    cut = (AxisThread(thread.core, thread.tapped(depth)),) if tapped and thread is not None else ()
+    return replace(_part("translator end", "stator", material, profile, note, sizes), axis_threads=cut)
 
 
 def _clamp_ring(rotor: RotorFittings, material: str) -> Part:

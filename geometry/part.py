@@ -57,6 +57,17 @@ class AxialHole:
 
 
 @dataclass(frozen=True, slots=True)
+class AxisThread:
+    """A thread about the part's axis, on the cylinder of the profile that has this diameter (m).
+
+    thread : as in `Hole`.
+    """
+
+    diameter: float
+    thread: str
+
+
+@dataclass(frozen=True, slots=True)
 class Fit:
     """A toleranced size: what it is ("bore"), its nominal (m) and its tolerance class of ISO 286-2 ("H8", "f7")."""
 
@@ -74,7 +85,7 @@ class Part:
     profile : counter-clockwise, r >= 0 (m). note : what a name does not say, such as the direction of magnetisation.
     material : its name; none ("") where only the envelope is known. fill : share of the volume that is the material; a
     coil is drawn as its whole window. fits : its toleranced sizes. bought : what to order ("DIN 471 - 8 x 0.8");
-    what is made has none.
+    what is made has none. axis_threads : what is cut on cylinders of the profile itself.
     """
 
     name: str
@@ -89,6 +100,7 @@ class Part:
     axial_holes: tuple[AxialHole, ...] = ()
     fits: tuple[Fit, ...] = ()
     bought: str = ""
+    axis_threads: tuple[AxisThread, ...] = ()
 
     def __post_init__(self) -> None:
         if not is_simple(self.profile):

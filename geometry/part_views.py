@@ -179,7 +179,7 @@ def _diameters(
 
 def _diameter(part: Part, name: str, radius: float, x: float, line: float, factor: float) -> Dimension:
     size, r = 2 * radius, radius * factor
-    words = _fit(part, size)
+    words = _fit(part, size) or _thread(part, size)
     label = f"Ø<> {words}" if words else "Ø<>"
     return linear(name, (x, -r), (x, r), line, size * MM, across=True, label=label)
 
@@ -188,6 +188,11 @@ def _fit(part: Part, size: float) -> str:
     """The tolerance of a size (m) in words, "" where the general one holds."""
     fit = fit_of(part, size)
     return fit_text(fit) if fit is not None else ""
+
+
+def _thread(part: Part, size: float) -> str:
+    """What is cut on a cylinder of this diameter (m), "" where nothing is."""
+    return next((f"thread {cut.thread}" for cut in part.axis_threads if abs(cut.diameter - size) < ALIKE), "")
 
 
 def _length_fit(part: Part, size: float) -> str:

@@ -99,4 +99,4 @@ def _shape(row: PartMass) -> tuple[object, ...]:
 
     # A piece that is turned end for end is the same piece.
     ends = sorted((seen(lambda z: nm(z - low)), seen(lambda z: nm(high - z))), key=repr)
-    return (*common, part.fits, ends[0])
+    return (*common, part.fits, part.axis_threads, ends[0])

@@ -218,6 +218,7 @@ def _properties(item: Item, shape: Body) -> tuple[Property, ...]:
         for name, fit in zip(names, shape.fits, strict=True):
             found.append(Property(name, f"{fit.nominal * 1e3:.6g} {fit.tolerance}"))
         threads = [hole.thread for hole in shape.holes] + [hole.thread for hole in shape.axial_holes]
+        threads += [cut.thread for cut in shape.axis_threads]
         for thread in dict.fromkeys(filter(None, threads)):
             found.append(Property(f"thread {thread}", f"{threads.count(thread)} x {thread}"))
     return tuple(found)

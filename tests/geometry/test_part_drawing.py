@@ -23,7 +23,7 @@ from fluxbore.geometry.assembly import Assembly
 from fluxbore.geometry.drawing_set import drawing_set, made
 from fluxbore.geometry.helical_part import HelicalPart
 from fluxbore.geometry.outline import rectangle
-from fluxbore.geometry.part import AxialHole, Fit, Hole, Part
+from fluxbore.geometry.part import AxialHole, AxisThread, Fit, Hole, Part
 from fluxbore.geometry.part_dimensions import chamfers, diameters, hole_groups, levels
 from fluxbore.geometry.part_drawing import part_sheet
 from fluxbore.geometry.parts_list import Item, parts_list
@@ -94,6 +94,23 @@ def test_fits_are_shown_as_class_and_limits_where_their_size_is() -> None:
     assert "Pin: 4 m6 (+0.012/+0.004)." in shown  # no dimension has this size
     with pytest.raises(DesignError, match='got "Q8"'):
         sheet_of(a_part(fits=(Fit("bore", 10 * MM, "Q8"),)))
+
+
+def test_a_thread_about_the_axis_is_told_where_its_diameter_is() -> None:
+    """A bore of 6 mm with M6 in a note alone would be drilled to 6 mm, and no M6 could be cut."""
+    assert "Ø10 thread M10" in words(sheet_of(a_part(axis_threads=(AxisThread(10 * MM, "M10"),))))
+
+
+def test_every_thread_about_an_axis_has_a_diameter_of_its_part() -> None:
+    found = {}
+    for name in ("prehydra", "rotlin"):
+        spec = load(f"examples/{name}.toml")
+        whole = assembly_of(spec)
+        for part in whole.parts:
+            for cut in part.axis_threads if isinstance(part, Part) else ():
+                found[part.role] = cut.thread
+                assert any(abs(2 * item.r - cut.diameter) < 1e-9 for item in diameters(part)), part.name
+    assert found == {"end cap": "M6", "rod": "M6 x 9.53", "translator end": "M8 x 16"}
 
 
 def test_no_line_runs_through_the_text_of_a_narrow_fit() -> None:
