@@ -110,7 +110,7 @@ def test_every_thread_about_an_axis_has_a_diameter_of_its_part() -> None:
             for cut in part.axis_threads if isinstance(part, Part) else ():
                 found[part.role] = cut.thread
                 assert any(abs(2 * item.r - cut.diameter) < 1e-9 for item in diameters(part)), part.name
-    assert found == {"end cap": "M6", "rod": "M6 x 9.53", "translator end": "M8 x 16"}
+    assert found == {"end cap": "M6", "rod": "M6 x 9.52", "translator end": "M8 x 16"}
 
 
 def test_no_line_runs_through_the_text_of_a_narrow_fit() -> None:
