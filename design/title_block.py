@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import re
+import unicodedata
 from dataclasses import dataclass
 
 from fluxbore.design.keys import Key, Values
 
 LONGEST_NUMBER = 24
 """Letters of a part number that is made from the design's name."""
+
+SPELT = str.maketrans({"Ä": "AE", "Ö": "OE", "Ü": "UE", "Æ": "AE", "Ø": "OE", "Œ": "OE", "Ł": "L", "Đ": "D", "Þ": "TH"})
+"""Letters that more than an accent parts from the plain ones, as they are spelt where there are none."""
 
 
 def _word(leaf: str, doc: str, default: str | None = None) -> Key:
@@ -51,6 +55,13 @@ class TitleBlock:
         return f"{self.drawing_number}-{item:03d}"
 
 
+def _number_from(name: str) -> str:
+    """Capitals, digits and hyphens: "Kühler 2" becomes "KUEHLER-2"."""
+    plain = unicodedata.normalize("NFKD", unicodedata.normalize("NFC", name.upper()).translate(SPELT))
+    plain = "".join(letter for letter in plain if not unicodedata.combining(letter))
+    return re.sub(r"[^A-Z0-9]+", "-", plain).strip("-")[:LONGEST_NUMBER].strip("-") or "DESIGN"
+
+
 def title_block(values: Values) -> TitleBlock:
     """From the resolved values of a specification of any kind."""
 
@@ -58,8 +69,7 @@ def title_block(values: Values) -> TitleBlock:
         return str(values.get(f"drawing.{leaf}", ""))
 
     name = str(values["actuator.name"])
-    own = re.sub(r"[^A-Z0-9]+", "-", name.upper()).strip("-")[:LONGEST_NUMBER].strip("-") or "DESIGN"
-    number = word("part_number") or own
+    number = word("part_number") or _number_from(name)
     return TitleBlock(
         name,
         number,

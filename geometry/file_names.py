@@ -15,13 +15,17 @@ PARTS = "parts"
 LONGEST_NAME = 80
 """Bytes of a file's name, its ending left out."""
 
+DEVICES = re.compile(r"(con|prn|aux|nul|(com|lpt)[0-9])(\..*)?", re.IGNORECASE)
+"""What Windows takes for a device, whatever ending follows."""
+
 
 def file_name(name: str) -> str:
     """The name with everything that some file system or shell minds turned into hyphens: "end cap, rod end" becomes
     "end-cap-rod-end"."""
     safe = re.sub(r"[^\w.+]+", "-", name).strip("-.")
     # File systems take 255 bytes at most, and a folder's listing reads better with far fewer.
-    return safe.encode()[:LONGEST_NAME].decode(errors="ignore").strip("-.") or "unnamed"
+    safe = safe.encode()[:LONGEST_NAME].decode(errors="ignore").strip("-.") or "unnamed"
+    return f"_{safe}" if DEVICES.fullmatch(safe) else safe
 
 
 def item_stems(items: Sequence[Item]) -> list[str]:

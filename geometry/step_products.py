@@ -120,7 +120,7 @@ class Catalogue:
             name if not variant else f"{name}, variant {variant + 1}",
             self.revision,
             item.source,
-            shape.note if item.count == 1 else "",
+            shape.note if len({part.note for part in item.parts}) == 1 else "",  # else it is of the single piece
             None if density is None else (shape.material, density),
             item.volume,
             centre_of_mass(shape),

@@ -10,9 +10,10 @@ from fluxbore.actuators import assembly_of
 from fluxbore.cli import main
 from fluxbore.design.materials import standard
 from fluxbore.design.spec import load
-from fluxbore.design.title_block import TitleBlock
+from fluxbore.design.title_block import TitleBlock, title_block
 from fluxbore.geometry.assembly import Assembly
 from fluxbore.geometry.bill_of_materials import HEAD, bill_of_materials
+from fluxbore.geometry.file_names import file_name
 from fluxbore.geometry.mass import part_masses, total
 from fluxbore.geometry.outline import rectangle
 from fluxbore.geometry.part import Fit, Part
@@ -60,6 +61,19 @@ def test_words_with_commas_quotes_and_breaks_stay_in_their_cells() -> None:
     assert (second["make or buy"], second["designation"], second["drawing number"]) == ("buy", "DIN 471 - 8 x 0.8", "")
     assert carried["name"] == "carried along, not drawn"
     assert float(carried["mass total (kg)"]) == 0.25
+
+
+@pytest.mark.parametrize(
+    ("name", "number"),
+    [("Kühler 2", "KUEHLER-2"), ("Straße é", "STRASSE-E"), ("張三", "DESIGN"), ("a" * 30, "A" * 24)],
+)
+def test_a_number_made_from_the_name_keeps_its_letters(name: str, number: str) -> None:
+    assert title_block({"actuator.name": name}).part_number == number
+
+
+def test_no_file_is_a_device_to_windows() -> None:
+    names = ("CON", "nul.x", "Com1", "console", "end cap, rod end")
+    assert [file_name(name) for name in names] == ["_CON", "_nul.x", "_Com1", "console", "end-cap-rod-end"]
 
 
 def test_no_word_is_a_formula_to_a_spreadsheet() -> None:

@@ -51,6 +51,7 @@ def whole() -> Assembly:
         HelicalPart(
             f"arc {i}", "arc", "mover", "N42 (20 °C)" if "N42 (20 °C)" in standard() else STEEL, BLUE,
             0.02, 0.022, arc(0.01, 0.004, 0.9, math.tau * i / 6, 0.01 * i / 6), 0.01,
+            note="bonded",
         )
         for i in range(7)
     )  # fmt: skip
@@ -115,6 +116,9 @@ def test_products_tell_what_a_workshop_asks(file: StepFile, items: tuple[Item, .
             assert found["mass"] == (pytest.approx(item.mass, rel=1e-12), "KILOGRAM")
             assert found["material name"] == part.material
             assert found["density"] == (standard()[part.material].density, "KILOGRAM^1 METRE^-3")
+    descriptions = {item[1]: item[2] for item in file.all("PRODUCT").values()}
+    assert descriptions["arc"] == "bonded"  # of all pieces
+    assert descriptions["coil"] == ""  # "phase U" and "phase V" are the pieces' own
     assert told["cap"]["tolerance of bore"] == "8 H8"
     assert told["cap"]["tolerance of spigot"] == "24 f7"
     assert told["cap"]["thread M5 x 6"] == "1 x M5 x 6"
