@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import csv
 import io
+from collections import Counter
 from collections.abc import Sequence
 
 from fluxbore.design.errors import one_line
@@ -55,10 +56,18 @@ def bill_of_materials(assembly: Assembly, items: Sequence[Item]) -> str:
 
 def item_note(item: Item) -> str:
     """What the name does not say: of several pieces each of their notes once, and the toleranced sizes."""
-    notes = list(dict.fromkeys(part.note for part in item.parts if part.note))
+    notes = piece_notes(item)
     if isinstance(item.part, Part):
         notes += [f"{fit.feature} {fit.nominal * 1e3:.6g} {fit.tolerance}" for fit in item.part.fits]
     return "; ".join(notes)
+
+
+def piece_notes(item: Item) -> list[str]:
+    """What is noted of the pieces, each note once, with how many it is of where it is not of all."""
+    counts = Counter(part.note for part in item.parts)
+    return [
+        note if count == item.count else f"{count} of {item.count}: {note}" for note, count in counts.items() if note
+    ]
 
 
 def _row(item: Item, revision: str) -> tuple[object, ...]:

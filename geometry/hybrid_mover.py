@@ -78,6 +78,10 @@ def _shaft(actuator: HybridActuator, position: float) -> Part:
     )
 
 
+STACKED = "h9"
+"""Of the lengths of magnets and rings: a stack of them that is too long would not go between the snap rings."""
+
+
 def _chamfer(actuator: HybridActuator) -> float:
     """Of the shaft's ends (m), at 45°: no more than half of what is left beyond a groove."""
     wire = layout.snap_wire(actuator)
@@ -94,8 +98,9 @@ def _magnet_array(actuator: HybridActuator, position: float) -> list[Part]:
     bore = (Fit("bore", 2 * inner, "H8"), Fit("diameter", 2 * outer, "h8"))
 
     def ring(name: str, role: str, low: float, high: float) -> Part:
-        profile = rectangle(inner, outer, low, high)
-        return Part(name, role, "mover", mover.ring_material, COLOURS["ring"], profile, fits=bore)
+        profile, length = rectangle(inner, outer, low, high), half if role == "half ring" else mover.ring_width
+        fits = (*bore, Fit("length", length, STACKED))
+        return Part(name, role, "mover", mover.ring_material, COLOURS["ring"], profile, fits=fits)
 
     parts = [ring("half ring, cap side", "half ring", position, position + half)] if half else []
     for i in range(actuator.magnets):
@@ -112,6 +117,7 @@ def _magnet(actuator: HybridActuator, name: str, way: str, before: float, behind
     mover, count, half = actuator.mover, layout.segments(actuator), actuator.mover.ring_width / 2
     inner, outer = actuator.shaft.outer_diameter / 2, mover.outer_diameter / 2
     low, high = before + half, behind - half
+    length = (mover.pole_pitch - mover.ring_width) / count
     cuts = [low + i * (high - low) / count for i in range(count)] + [high]
     pieces = []
     for i in range(count):
@@ -127,7 +133,7 @@ def _magnet(actuator: HybridActuator, name: str, way: str, before: float, behind
                 COLOURS[f"magnet {way}"],
                 rectangle(inner, outer, cuts[i], cuts[i + 1]),
                 note=note,
-                fits=(Fit("bore", 2 * inner, "H9"), Fit("diameter", 2 * outer, "h9")),
+                fits=(Fit("bore", 2 * inner, "H9"), Fit("diameter", 2 * outer, "h9"), Fit("length", length, STACKED)),
             )
         )
     return pieces

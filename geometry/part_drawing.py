@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 from fluxbore.design.errors import DesignError
 from fluxbore.design.title_block import TitleBlock
+from fluxbore.geometry.bill_of_materials import piece_notes
 from fluxbore.geometry.drawing import Page
 from fluxbore.geometry.helical_part import HelicalPart
 from fluxbore.geometry.hole_table import hole_table, table_height
@@ -91,9 +92,7 @@ def _remarks(item: Line) -> list[str]:
         lines[0] += " Lengths from the left face."
     if part.fill < 1:
         lines.append(f"Drawn as the whole window, of which {part.fill:.3g} is {part.material}.")
-    lines += [
-        f"{note[0].upper()}{note[1:]}." for note in dict.fromkeys(piece.note for piece in item.parts if piece.note)
-    ]
+    lines += [f"{note[0].upper()}{note[1:]}." for note in piece_notes(item)]
     if isinstance(part, Part):
         lines += _other_fits(part)
     return lines

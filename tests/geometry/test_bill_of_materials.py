@@ -1,6 +1,7 @@
 """The bill of materials, read back by another reader of CSV; its sums are the masses that the figures use."""
 
 import csv
+import dataclasses
 import io
 from pathlib import Path
 
@@ -69,6 +70,15 @@ def test_words_with_commas_quotes_and_breaks_stay_in_their_cells() -> None:
 )
 def test_a_number_made_from_the_name_keeps_its_letters(name: str, number: str) -> None:
     assert title_block({"actuator.name": name}).part_number == number
+
+
+def test_what_only_some_pieces_are_is_told_with_their_number() -> None:
+    block = rectangle(2 * MM, 5 * MM, 0.0, 3 * MM)
+    one = Part("magnet 1", "magnet", "mover", "N48", (0.5, 0.5, 0.5), block, note="along +z")
+    parts = [dataclasses.replace(one, name=f"magnet {i}", note=way) for i, way in enumerate(("+z", "-z", "+z"))]
+    whole = Assembly("a", tuple(parts), 0.0)
+    (row,) = rows_of(bill_of_materials(whole, parts_list(whole, standard())))
+    assert row["note"] == "2 of 3: +z; 1 of 3: -z"
 
 
 def test_no_file_is_a_device_to_windows() -> None:

@@ -16,6 +16,7 @@ from drawing_checks import check_texts, check_told, read_back, told
 from fluxbore.actuators import assembly_of
 from fluxbore.cli import main
 from fluxbore.design.errors import DesignError
+from fluxbore.design.iso286 import limits
 from fluxbore.design.materials import standard
 from fluxbore.design.spec import load
 from fluxbore.design.title_block import TitleBlock
@@ -111,6 +112,18 @@ def test_every_thread_about_an_axis_has_a_diameter_of_its_part() -> None:
                 found[part.role] = cut.thread
                 assert any(abs(2 * item.r - cut.diameter) < 1e-9 for item in diameters(part)), part.name
     assert found == {"end cap": "M6", "rod": "M6 x 9.52", "translator end": "M8 x 16"}
+
+
+def test_a_stack_of_magnets_and_rings_is_never_too_long() -> None:
+    """Eight magnets with general tolerances would be up to 2 mm too long for the grooves of their snap rings."""
+    spec = load("examples/ipehla.toml")
+    whole = assembly_of(spec)
+    stacked = [part for part in whole.parts if part.role in ("magnet", "ring", "half ring")]
+    lengths = [fit for part in stacked if isinstance(part, Part) for fit in part.fits if fit.feature == "length"]
+    assert sum(fit.nominal for fit in lengths) == pytest.approx(96 * MM)
+    assert max(limits(fit.nominal, fit.tolerance)[1] for fit in lengths) == 0.0
+    (magnet,) = [item for item in parts_list(whole, spec.materials) if item.name == "magnet"]
+    assert "10.5 h9 (0/-0.043)" in words(part_sheet(magnet, whole.title, "magnet"))
 
 
 def test_no_line_runs_through_the_text_of_a_narrow_fit() -> None:
