@@ -74,7 +74,8 @@ def _shaft(actuator: HybridActuator, position: float) -> Part:
         COLOURS["shaft"],
         tuple(points),
         note=f"magnets, rings and pistons bonded on with retaining compound, {held}",
-        fits=(Fit("diameter", shaft.outer_diameter, "f7"),),
+        # What bushes of POM run on; ground shafts as they are sold (h6) keep it.
+        fits=(Fit("diameter", shaft.outer_diameter, "h8"),),
     )
 
 

@@ -173,6 +173,18 @@ def test_caps_made_to_their_tolerances_squeeze_their_seals_and_clear_the_rod() -
     assert slack < 0.25 * (section - (seal.nominal - rod.nominal) / 2)
 
 
+def test_a_ground_shaft_as_it_is_sold_keeps_the_drawings_tolerance_and_passes_every_bore() -> None:
+    """``--snap catalogue`` names a shaft h6; a sheet that asks for f7 would have it turned down again."""
+    parts = [p for p in hybrid_parts.assembly(table_ii(), 0.0).parts if isinstance(p, parts_of.Part)]
+    (rod,) = [fit for part in parts if part.role == "shaft" for fit in part.fits]
+    low, high = limits(rod.nominal, rod.tolerance)
+    sold = limits(rod.nominal, "h6")
+    assert low <= sold[0] < sold[1] <= high
+    bores = [fit for part in parts for fit in part.fits if fit.feature == "bore" and part.group == "mover"]
+    assert bores
+    assert all(limits(fit.nominal, fit.tolerance)[0] >= high for fit in bores)
+
+
 def test_at_the_strokes_ends_the_pistons_touch_the_caps() -> None:
     actuator = table_ii()
     low, high = ends(actuator)
