@@ -40,7 +40,7 @@ def hole_table(groups: Sequence[HoleGroup], corner: Place, origin: Place, scale:
 def _words(group: HoleGroup) -> tuple[str, ...]:
     """The cells that are no dimensions."""
     across = isinstance(group.first, Hole)
-    end = "" if _has_end(group) else _through(group)
+    end = "" if has_end(group) else _through(group)
     angles = group.angles + (", clockwise" if len(group.holes) > 1 else "")
     return (
         group.letter,
@@ -60,7 +60,7 @@ def _through(group: HoleGroup) -> str:
     return "into the bore" if group.bore > 0 else "the axis"
 
 
-def _has_end(group: HoleGroup) -> bool:
+def has_end(group: HoleGroup) -> bool:
     """Whether a flat end is within the material."""
     first = group.first
     if isinstance(first, AxialHole):
@@ -82,13 +82,13 @@ def _sizes(group: HoleGroup, corner: Place, origin: Place, factor: float) -> lis
         ends = ((x0 + z * factor, middle - half * factor), (x0 + z * factor, middle + half * factor))
     found: list[Item] = [_cell(f"hole {letter}", SIZE, ends, first.diameter, "Ø<>", corner)]
     if isinstance(first, Hole):
-        if _has_end(group):
+        if has_end(group):
             ends = ((x0 + z * factor, y0), (x0 + z * factor, y0 + first.bottom * factor))
             found.append(_cell(f"end of hole {letter}", END, ends, first.bottom, "<> from the axis, flat", corner))
         return found
     circle = ((x0 + z * factor, y0 - first.radius * factor), (x0 + z * factor, y0 + first.radius * factor))
     found.append(_cell(f"pitch circle of {letter}", CIRCLE, circle, 2 * first.radius, "Ø<>", corner))
-    if _has_end(group):
+    if has_end(group):
         y = y0 + first.radius * factor
         ends = ((x0 + first.start * factor, y), (x0 + first.end * factor, y))
         side = group.face

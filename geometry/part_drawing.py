@@ -13,7 +13,7 @@ from fluxbore.design.title_block import TitleBlock
 from fluxbore.geometry.bill_of_materials import piece_notes
 from fluxbore.geometry.drawing import Page
 from fluxbore.geometry.helical_part import HelicalPart
-from fluxbore.geometry.hole_table import hole_table, table_height
+from fluxbore.geometry.hole_table import has_end, hole_table, table_height
 from fluxbore.geometry.part import Body, Part
 from fluxbore.geometry.part_dimensions import ALIKE, diameters, fit_text, hole_groups, levels
 from fluxbore.geometry.part_size import winding_text
@@ -95,6 +95,8 @@ def _remarks(item: Line) -> list[str]:
     lines += [f"{note[0].upper()}{note[1:]}." for note in piece_notes(item)]
     if isinstance(part, Part):
         lines += _other_fits(part)
+        if any(group.first.thread and has_end(group) for group in hole_groups(part)):
+            lines.append("Blind threads reach the floor: bottoming tap.")
     return lines
 
 

@@ -166,6 +166,8 @@ def test_drillings_stand_in_a_table_with_count_thread_and_pitch_circle() -> None
     assert table <= set(shown)
     assert "9 from the axis, flat" in shown
     assert any(text.endswith(" A") for text in shown)  # its place among the lengths
+    assert "Blind threads reach the floor: bottoming tap." in shown
+    assert "Blind threads reach the floor: bottoming tap." not in words(sheet_of(a_part(axial_holes=flange)))
 
 
 def test_pieces_that_are_bought_or_only_an_envelope_have_no_sheet() -> None:
