@@ -13,7 +13,7 @@ from fluxbore.geometry.part import AxisThread, Colour, Part
 RING_MATERIAL = "NBR 70"
 """Of the O-ring, as it is bought."""
 
-HELD = "rod bonded into the piston; pressure goes through the shoulder"
+HELD = "rod bonded into the piston; pressure goes through the shoulder, which seats before the end meets its floor"
 
 COLOURS: dict[str, Colour] = {
     "piston": (0.62, 0.64, 0.67),
