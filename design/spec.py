@@ -42,7 +42,9 @@ def load(path: Path | str, overrides: Mapping[str, str] | None = None) -> Spec:
         with path.open("rb") as file:
             content = file.read(LARGEST_FILE + 1)
     except OSError as error:
-        raise SpecError(f"{path} cannot be read: {error.strerror or error}.") from error
+        found = path / "design.toml"  # what a finished run leaves
+        hint = f"; the design in it is {found}" if isinstance(error, IsADirectoryError) and found.is_file() else ""
+        raise SpecError(f"{path} cannot be read: {error.strerror or error}{hint}.") from error
     if len(content) > LARGEST_FILE:
         raise SpecError(f"{path} must be a specification of at most {LARGEST_FILE} bytes; it is larger.")
     try:

@@ -233,3 +233,9 @@ def test_the_fingerprint_knows_what_decides_the_result(spec):
 def test_examples_are_sound():
     for path in sorted((Path(__file__).parents[2] / "examples").glob("*.toml")):
         load(path)
+
+
+def test_a_runs_folder_leads_to_the_design_in_it(tmp_path):
+    (tmp_path / "design.toml").touch()
+    with pytest.raises(SpecError, match=r"cannot be read: Is a directory; the design in it is .*design\.toml\.$"):
+        load(tmp_path)
