@@ -64,7 +64,7 @@ def test_no_step_of_the_workshops_about_it_is_lighter(found: SearchResult) -> No
         if other.ok and _keeps(other.performance, start):
             kept += 1
             assert other.performance.distal_mass > least - 1e-4
-    assert kept > 20
+    assert kept > 10, "else the comparison says little"
 
 
 def _keeps(figures: Performance, start: Performance) -> bool:
