@@ -234,7 +234,7 @@ def export_checked(
     if schema not in STEP_SCHEMAS:
         raise SpecError(f'The schema of STEP files must be {" or ".join(STEP_SCHEMAS)}; got "{schema}".')
     words, job = wanted(spec, formats), Job(spec, schema)
-    made = {word: FORMATS[word].contents(job) for word in words}
+    made = _made(job, words)
     if own_text:
         comment = f"{job.assembly.name} in catalogue sizes, every value exact."
         made["specification"] = {f"{job.stem}-catalogue.toml": to_toml(spec, comment)}
@@ -244,8 +244,31 @@ def export_checked(
         return Export(tuple(own_files.put(place.path, made, spec.fingerprint(), force)), found)
 
 
+SLOW = ("step", "vtu", "pdf", "winding", "dxf")
+"""Formats that take seconds, the slowest first: two of them at once are made by processes of their own."""
+
+
+def _made(job: Job, words: Sequence[str]) -> dict[str, Contents]:
+    """Every format's files. What a process cannot make is made here, so that its error is raised as it is."""
+    if sum(word in SLOW for word in words) < 2:
+        return {word: FORMATS[word].contents(job) for word in words}
+    from fluxbore.optimize.executor import local_executor
+
+    order = sorted(words, key=lambda word: SLOW.index(word) if word in SLOW else len(SLOW))
+    with local_executor() as executor:
+        outcomes = executor.run(_one, [(job.spec, job.schema, word) for word in order])
+        made = {order[item.index]: item.value for item in outcomes if item.failure is None}
+    return {word: found if (found := made.get(word)) is not None else FORMATS[word].contents(job) for word in words}
+
+
+def _one(task: tuple[Spec, str, str]) -> Contents:
+    """In a process of its own."""
+    spec, schema, word = task
+    return dict(FORMATS[word].contents(Job(spec, schema)))
+
+
 def write_cad(spec: Spec, folder: Folder, below: str) -> list[Path]:
     """What a whole run leaves below its folder: the formats `OF_A_RUN`."""
     job = Job(spec)
-    made = {word: FORMATS[word].contents(job) for word in OF_A_RUN if word in FORMATS and FORMATS[word].able(spec)}
+    made = _made(job, [word for word in OF_A_RUN if word in FORMATS and FORMATS[word].able(spec)])
     return own_files.put(folder.path / below, made, spec.fingerprint())

@@ -85,7 +85,9 @@ def history(name: str) -> tuple[np.ndarray, np.ndarray]:
     return unknowns[kept], errors[kept]
 
 
-@pytest.mark.parametrize("name", MODELS)
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=pytest.mark.full) if name == "magnet" else name for name in MODELS]
+)
 def test_energy_error_falls_as_on_smooth_fields(name: str) -> None:
     """Catches marking or estimates that refine in the wrong place: a slope of 1.7 or more over two decades of error."""
     unknowns, errors = history(name)

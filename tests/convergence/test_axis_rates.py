@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import cache
 
 import numpy as np
+import pytest
 from manufactured import (
     ENERGY_RATE,
     FIELD_RATE,
@@ -66,6 +67,7 @@ def around_axis() -> list[Solution]:
     return [manufactured(level, VACUUM * 3, ball_density, 2) for level in levels(ball(SPHERE), NOTHING, 4)]
 
 
+@pytest.mark.full
 def test_energy_and_linkage_around_the_axis() -> None:
     """Catches an order lost in 1/r, on curved edges that touch the axis, on the sphere around, or in a round coil."""
     stored = 2 * np.pi * over_disc(lambda p: np.sum(ball_field(p) ** 2, axis=-1) / 2 * p[..., 0], (0, 0), 1, half=True)

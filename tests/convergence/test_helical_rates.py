@@ -64,6 +64,7 @@ def test_rings_against_the_axisymmetric_solver() -> None:
     assert rates(apart).min() > 3.4, apart
 
 
+@pytest.mark.full
 def test_force_and_coenergy_of_saturated_iron() -> None:
     """Catches a nonlinear law integrated too coarsely: from its steps on meshes of 1, 2 and 3 times the cells.
 
