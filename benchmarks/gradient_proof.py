@@ -133,10 +133,7 @@ def _entry(
 def _run(
     which: tuple[int, str], status: str, spec: Spec, field: Field, skipped: dict[str, str], entries: list[Entry]
 ) -> Run:
-    highest = max(
-        float(np.linalg.norm(item.solution.flux_density(item.solution.system.iron_elements), axis=-1).max(initial=0.0))
-        for item in (*field.window, *field.peaks)
-    )
+    highest = max(item.highest_flux_density() for item in (*field.window, *field.peaks))
     iron = [spec.materials[spec.word(f"actuator.{part}.material")].curve is not None for part in ("cylinder", "shaft")]
     return Run(*which, status, len(field.window), len(field.peaks), iron[0], iron[1], highest, skipped, entries)
 

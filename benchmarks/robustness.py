@@ -35,7 +35,7 @@ from fluxbore.design.hybrid import (
 )
 from fluxbore.design.materials import Library, PermanentMagnet, SoftIron, standard
 from fluxbore.fem.magnetostatics import Settings
-from fluxbore.fem.tubular import TubularSolution, solve_currents
+from fluxbore.fem.tubular import solve_currents
 from fluxbore.geometry.hybrid import cross_section
 
 TOP = Path(__file__).resolve().parents[1]
@@ -162,13 +162,7 @@ def _run(seed: int, design: RandomDesign, library: Library, settings: Settings |
     if found.converged and not np.all(np.isfinite((*solved.solution.psi, *solved.thrust_constants()))):
         return Run(seed, loaded, "not finite", "The field or its thrust is not finite.", 0, seconds, 0.0)
     reason = "" if found.converged else found.sentence()
-    return Run(seed, loaded, found.status, reason, found.iterations, seconds, _highest(solved))
-
-
-def _highest(solved: TubularSolution) -> float:
-    """Largest |B| (T) in iron."""
-    elements = solved.solution.system.iron_elements
-    return float(np.linalg.norm(solved.solution.flux_density(elements), axis=-1).max(initial=0.0))
+    return Run(seed, loaded, found.status, reason, found.iterations, seconds, solved.highest_flux_density())
 
 
 def lines(found: Sequence[Run]) -> list[str]:

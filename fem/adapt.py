@@ -166,7 +166,7 @@ def _level(solution: Solution, estimates: tuple[Estimate, ...]) -> Level:
 
 def tangent_product(solution: Solution, first: Floats, second: Floats) -> Floats:
     """(m,) ∫ a·D·b over each element, D the differential reluctivity; a, b : (m, q, 2) in the kernel's frame."""
-    system = solution.system
+    system = solution.triangles
     factor = system.linear_factor
     rows = factor[..., None] if factor.ndim == 2 else factor
     product = np.sum(rows * first * second, axis=(1, 2))

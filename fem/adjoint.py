@@ -23,7 +23,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fluxbore.fem.cells import POINTS, Cells
+from fluxbore.fem.cells import Cells
 from fluxbore.fem.magnetostatics import Solution
 from fluxbore.fem.mapped import MappedMesh
 from fluxbore.fem.mesh import Floats, Ints
@@ -60,7 +60,8 @@ class Linearisation:
         cells, materials = self.cells, self._solution.problem.materials
         reluctivity = np.array([material.components[0] for material in materials])
         self._weighted = cells.weight * reluctivity[cells.region][:, None]
-        parts, slopes, curvatures = [np.zeros(0, dtype=int)], [np.zeros((0, POINTS))], [np.zeros((0, POINTS))]
+        points = cells.square.points
+        parts, slopes, curvatures = [np.zeros(0, dtype=int)], [np.zeros((0, points))], [np.zeros((0, points))]
         self._magnets: list[tuple[int, Ints, float]] = []
         for index, material in enumerate(materials):
             assert material.stack is None
@@ -122,7 +123,7 @@ class Linearisation:
         for index, chosen, _ in self._magnets:
             weight = cells.weight[chosen]
             across, along = (weight * b[chosen] for b in self._b)
-            values = adjoints[cells.nodes[chosen]].reshape(chosen.size * 9, -1)
+            values = adjoints[cells.nodes[chosen]].reshape(chosen.size * cells.square.nodes, -1)
             of_field = cells.pull_across(across, chosen) + cells.pull_along(along, chosen)
             found[:, index] = of_field.ravel() @ values, -cells.pull_across(weight, chosen).ravel() @ values
         return found[0], found[1]

@@ -26,13 +26,12 @@ import numpy as np
 
 from fluxbore.fem.mapped import MappedMesh
 from fluxbore.fem.mesh import Floats, Ints
-from fluxbore.fem.problem import EdgeTerms
 from fluxbore.fem.reluctivity import VACUUM_RELUCTIVITY
+from fluxbore.fem.tensor_product import side
 
-_POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(4)
+_POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(8)
 _T, _W = (_POINTS + 1) / 2, _WEIGHTS / 2
-_SHAPE = np.column_stack(((1 - _T) * (1 - 2 * _T), _T * (2 * _T - 1), 4 * _T * (1 - _T)))
-"""(4, 3) of an edge's start, end and middle."""
+"""On an edge; c is no polynomial."""
 
 _STEP = 1e-30
 """m or m²; so small that its square vanishes."""
@@ -64,76 +63,88 @@ def _distance(r: Values, z: Values) -> Values:
 
 
 def _shell(start: Values, end: Values, radius: Values, first: Values, second: Values) -> Values:
-    """(k, 4) ν0 c/r dl at the Gauss points of edges from start to end (k, 1) in z, on a cylinder."""
+    """(k, t) ν0 c/r dl at the Gauss points of edges from start to end (k, 1) in z, on a cylinder."""
     length = end - start
     z = start + length * _T
     return VACUUM_RELUCTIVITY * length * _W * across_shell(radius, z, (first, second)) / radius
 
 
-def _end(side: float, start: Values, end: Values, z: Values, first: Values, second: Values) -> Values:
-    """(k, 4) the same of edges from start to end (k, 1) in s, on a plane at z.
+def _end(facing: float, start: Values, end: Values, z: Values, first: Values, second: Values) -> Values:
+    """(k, t) the same of edges from start to end (k, 1) in s, on a plane at z.
 
-    side : +1 or −1, above or below the machine.
+    facing : +1 or −1, above or below the machine.
     """
     width = end - start
     s = start + width * _T
     # The pole that is nearer, and distances that are positive.
-    near, far = (second, first) if side > 0 else (first, second)
+    near, far = (second, first) if facing > 0 else (first, second)
     # dl/r = dr/r = ds/(2 s) along an end.
-    return VACUUM_RELUCTIVITY * width * _W * across_end(np.sqrt(2 * s), (side * (z - near), side * (z - far))) / (2 * s)
+    return (
+        VACUUM_RELUCTIVITY
+        * width
+        * _W
+        * across_end(np.sqrt(2 * s), (facing * (z - near), facing * (z - far)))
+        / (2 * s)
+    )
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Rim:
-    """Edges of one side in order: their factors' arguments, and where they are.
+class _Edges:
+    """Cells' edges on one side of the rim in order: their factors' arguments, and where they are.
 
-    nodes : (k, 3) start, end, middle. cells : (k,).
+    nodes : (k, order + 1) along each edge.
     """
 
     factor: Callable[..., Values]
     arguments: tuple[Any, ...]
     nodes: Ints
-    cells: Ints
 
 
-def _rims(grid: MappedMesh, poles: tuple[float, float]) -> list[_Rim]:
-    rows, columns = 2 * np.arange(grid.z_lines.size - 1), 2 * np.arange(grid.r_lines.size - 1)
-    last_row, last_column = 2 * rows.size, 2 * columns.size
-    rims = [
-        _Rim(
+def _sides(grid: MappedMesh, poles: tuple[float, float]) -> list[_Edges]:
+    row, column = (grid.order * np.arange(n)[:, None] + np.arange(grid.order + 1) for n in grid.shape)
+    s_lines, z_lines = grid.r_nodes[:: grid.order, None], grid.z_lines[:, None]
+    found = [
+        _Edges(
             _shell,
-            (grid.z_nodes[rows][:, None], grid.z_nodes[rows + 2][:, None], float(grid.r_lines[-1]), *poles),
-            np.stack([grid.node(rows + k, last_column) for k in (0, 2, 1)], axis=-1),
-            rows // 2 * columns.size + columns.size - 1,
+            (z_lines[:-1], z_lines[1:], float(grid.r_lines[-1]), *poles),
+            grid.node(row, grid.r_nodes.size - 1),
         )
     ]
-    for row, end, side in ((0, float(grid.z_lines[0]), -1.0), (last_row, float(grid.z_lines[-1]), 1.0)):
-        rims.append(
-            _Rim(
-                partial(_end, side),
-                (grid.r_nodes[columns][:, None], grid.r_nodes[columns + 2][:, None], end, *poles),
-                np.stack([grid.node(row, columns + k) for k in (0, 2, 1)], axis=-1),
-                min(row // 2, rows.size - 1) * columns.size + columns // 2,
+    for last, end, facing in ((0, float(grid.z_lines[0]), -1.0), (grid.z_nodes.size - 1, float(grid.z_lines[-1]), 1.0)):
+        found.append(
+            _Edges(
+                partial(_end, facing),
+                (s_lines[:-1], s_lines[1:], end, *poles),
+                grid.node(last, column),
             )
         )
-    return rims
+    return found
 
 
-def open_edges(grid: MappedMesh, poles: tuple[float, float]) -> EdgeTerms:
+@dataclass(frozen=True, slots=True, eq=False)
+class Rim:
+    """A condition of the third kind on far edges. nodes : (k, order + 1) along each. matrices : one for each."""
+
+    nodes: Ints
+    matrices: Floats
+
+    def add_forces(self, forces: Floats, psi: Floats) -> None:
+        """What it does at nodal ψ (n,), to nodal forces (n,) in place."""
+        pull = np.einsum("kij,kj->ki", self.matrices, psi[self.nodes])
+        forces += np.bincount(self.nodes.ravel(), pull.ravel(), forces.size)
+
+
+def open_rim(grid: MappedMesh, poles: tuple[float, float]) -> Rim:
     """∫ ν0 c/r ψ v dl along the far edges of a mesh whose rim is open, c as above; per radian.
 
     poles : z of the machine's two ends (m); between the far edges.
     """
-    rims = _rims(grid, poles)
-    factors = np.concatenate([np.real(rim.factor(*rim.arguments)) for rim in rims])
-    matrices = np.einsum("kt,ti,tj->kij", factors, _SHAPE, _SHAPE, optimize=True)
-    elements, places = _owners(
-        grid.mesh.elements, np.concatenate([rim.cells for rim in rims]), np.concatenate([rim.nodes for rim in rims])
-    )
-    full = np.zeros((elements.size, 6, 6))
-    k = np.arange(elements.size)[:, None, None]
-    full[k, places[:, :, None], places[:, None, :]] = matrices
-    return EdgeTerms(elements, full, np.zeros(grid.mesh.nodes.shape[0]))
+    values = side(grid.order).values(_T)
+    sides = _sides(grid, poles)
+    factors = np.concatenate([np.real(edges.factor(*edges.arguments)) for edges in sides])
+    products = values[:, :, None] * values[:, None, :]
+    matrices = (factors @ products.reshape(_T.size, -1)).reshape(-1, *products.shape[1:])
+    return Rim(np.concatenate([edges.nodes for edges in sides]), matrices)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -154,14 +165,15 @@ class OpenRim:
 
     def __init__(self, grid: MappedMesh, poles: tuple[float, float]) -> None:
         self._grid = grid
-        rims = _rims(grid, poles)
-        self._nodes = np.concatenate([rim.nodes for rim in rims])
-        self._slopes = np.concatenate([_slopes(rim) for rim in rims], axis=1)
-        self._parts = np.cumsum([rim.nodes.shape[0] for rim in rims])[:-1]
+        sides = _sides(grid, poles)
+        self._nodes = np.concatenate([edges.nodes for edges in sides])
+        self._values = side(grid.order).values(_T)
+        self._slopes = np.concatenate([_slopes(edges) for edges in sides], axis=1)
+        self._parts = np.cumsum([edges.nodes.shape[0] for edges in sides])[:-1]
 
     def derivative(self, u: Floats, v: Floats) -> RimDerivative:
         """For pairs of nodal fields u, v (n, k), or one u (n, 1) for all."""
-        at_points = (_SHAPE @ u[self._nodes]) * (_SHAPE @ v[self._nodes])
+        at_points = (self._values @ u[self._nodes]) * (self._values @ v[self._nodes])
         by_arguments = np.einsum("akt,ktc->akc", self._slopes, at_points)
         shell, low, high = np.split(by_arguments, self._parts, axis=1)
         grid, columns = self._grid, by_arguments.shape[2]
@@ -176,17 +188,9 @@ class OpenRim:
         return RimDerivative(s, z, by_arguments[3:].sum(axis=1))
 
 
-def _slopes(rim: _Rim) -> Floats:
-    """(5, k, 4) of the factors at the edges' Gauss points by each of their arguments."""
-    count = len(rim.arguments)
+def _slopes(edges: _Edges) -> Floats:
+    """(5, k, t) of the factors at the edges' Gauss points by each of their arguments."""
+    count = len(edges.arguments)
     steps = 1j * _STEP * np.eye(count)[:, :, None, None]
-    moved = rim.factor(*(argument + step for argument, step in zip(rim.arguments, steps, strict=True)))
+    moved = edges.factor(*(argument + step for argument, step in zip(edges.arguments, steps, strict=True)))
     return np.asarray(np.imag(moved) / _STEP)
-
-
-def _owners(elements: Ints, cells: Ints, edges: Ints) -> tuple[Ints, Ints]:
-    """(k,) which of a cell's two elements has the edge (k, 3), and (k, 3) where the edge's nodes stand in it."""
-    pairs = 2 * cells[:, None] + np.arange(2)
-    has_middle = np.any(elements[pairs] == edges[:, 2, None, None], axis=2)
-    owner = np.where(has_middle[:, 0], pairs[:, 0], pairs[:, 1])
-    return owner, np.argmax(elements[owner][:, None, :] == edges[:, :, None], axis=2)

@@ -1,14 +1,6 @@
-"""The cells of a mapped mesh, all of one shape: rectangles in the chart, each cut into two triangles along a diagonal.
+"""The cells of a mapped mesh: rectangles in the chart, all of one shape.
 
-On the unit square with nodes in three rows of three
-
-    6 7 8
-    3 4 5    cut from 0 to 8,
-    0 1 2
-
-derivatives at the triangles' quadrature points are one matrix times the nodes' values, for all cells at once. Where a
-mesh cuts the other way the cell is taken as its mirror image: its nodes run against s, from its far line to its near
-one, and its width is negative.
+Derivatives at the quadrature points are one matrix times the nodes' values, for all cells at once.
 """
 
 from __future__ import annotations
@@ -17,81 +9,55 @@ from functools import cached_property, lru_cache
 
 import numpy as np
 
-from fluxbore.fem.element import QUADRATURE_POINTS, QUADRATURE_WEIGHTS, shape_derivatives
 from fluxbore.fem.mapped import MappedMesh
 from fluxbore.fem.mesh import Floats, Ints
-
-POINTS = 2 * QUADRATURE_WEIGHTS.size
-"""Quadrature points of a cell."""
-
-WEIGHTS = np.tile(QUADRATURE_WEIGHTS, 2) / 2
-
-# Nodes of either triangle, and the derivatives along the square by the second and the third barycentric coordinate.
-_TRIANGLES = (
-    ([0, 2, 8, 1, 5, 4], np.array([[1.0, -1.0], [0.0, 1.0]])),
-    ([0, 8, 6, 4, 7, 3], np.array([[1.0, 0.0], [-1.0, 1.0]])),
-)
-
-
-def _unit_square() -> tuple[Floats, Floats, Floats]:
-    """(9, points) twice, the nodes' values to the derivatives across and along, and (points,) the share across."""
-    slopes = np.zeros((2, 9, POINTS))
-    count = QUADRATURE_WEIGHTS.size
-    for k, (nodes, turn) in enumerate(_TRIANGLES):
-        by_square = shape_derivatives(QUADRATURE_POINTS) @ turn
-        slopes[:, nodes, k * count : (k + 1) * count] = by_square.transpose(2, 1, 0)
-    corners = np.array([0.0, 1.0, 1.0]), np.array([0.0, 1.0, 0.0])
-    return slopes[0], slopes[1], np.concatenate([QUADRATURE_POINTS @ across for across in corners])
-
-
-ACROSS, ALONG, SHARE = _unit_square()
+from fluxbore.fem.tensor_product import square
 
 
 class Cells:
     """The cells of a grid, row by row.
 
-    nodes : (m, 9). width, height : (m, 1) in s (m²), negative where mirrored, and in z (m). share : (points,) of the
-    width at each quadrature point. weight : (m, points), ds dz (m³). region : (m,).
+    nodes : (m, n), in the order of `tensor_product.Square`. width, height : (m, 1) in s (m²) and in z (m).
+    share : (points,) of the width at each quadrature point. weight : (m, points), ds dz (m³). region : (m,).
     """
 
     def __init__(self, grid: MappedMesh) -> None:
         self.grid = grid
-        self.shape = grid.z_lines.size - 1, grid.r_lines.size - 1
-        self.nodes, self._mirrored = chequered(*self.shape)
-        lines = grid.r_nodes[::2]
-        self._widths, self._heights = np.diff(lines), np.diff(grid.z_lines)
-        count = self.nodes.shape[0]
-        width = np.broadcast_to(self._widths, self.shape)
-        self.width = np.where(self._mirrored, -width, width).reshape(count, 1)
+        self.square = square(grid.order)
+        self.shape = grid.shape
+        self.nodes = cell_nodes(*self.shape, grid.order)
+        self._widths, self._heights = np.diff(grid.r_nodes[:: grid.order]), np.diff(grid.z_lines)
+        self.width = np.tile(self._widths, self.shape[0])[:, None]
         self.height = np.repeat(self._heights, self.shape[1])[:, None]
-        self.share = SHARE
-        self.weight = np.abs(self.width) * self.height * WEIGHTS
-        self.region = grid.mesh.region[::2]
+        self.share = self.square.share
+        self.weight = self.width * self.height * self.square.weights
+        self.region = grid.region.ravel()
 
     @cached_property
     def metric(self) -> Floats:
         """(m, points) 1/r² (1/m²)."""
-        lines = self.grid.r_nodes[::2]
-        start = np.where(self._mirrored, lines[1:], lines[:-1]).reshape(-1, 1)
-        return np.asarray(0.5 / (start + self.width * SHARE))
+        start = self.grid.r_nodes[: -1 : self.grid.order]
+        of_columns = 0.5 / (start[:, None] + self._widths[:, None] * self.share)
+        return np.tile(of_columns, (self.shape[0], 1))
 
     @cached_property
     def inverse_radius(self) -> Floats:
         """(m, points) 1/r (1/m)."""
         return np.sqrt(self.metric)
 
-    def fields(self, values: Floats) -> tuple[Floats, Floats]:
-        """What is B of ψ, of a nodal field (n,): (m, points) ∂/∂s and 1/r ∂/∂z."""
-        found = values[self.nodes]
-        return found @ ACROSS / self.width, found @ ALONG * (self.inverse_radius / self.height)
+    def fields(self, values: Floats, chosen: Ints | slice = slice(None)) -> tuple[Floats, Floats]:
+        """What is B of ψ, of nodal values: (m, points) ∂/∂s and 1/r ∂/∂z of all or of some cells."""
+        found = values[self.nodes[chosen]]
+        across, along = found @ self.square.across, found @ self.square.along
+        return across / self.width[chosen], along * (self.inverse_radius[chosen] / self.height[chosen])
 
     def pull_across(self, factors: Floats, chosen: Ints | slice = slice(None)) -> Floats:
-        """(m, 9) by a field's values at the nodes of the sum over points of factors (m, points) times its ∂/∂s."""
-        return np.asarray((factors / self.width[chosen]) @ ACROSS.T)
+        """(m, n) by a field's values at the nodes of the sum over points of factors (m, points) times its ∂/∂s."""
+        return np.asarray((factors / self.width[chosen]) @ self.square.across.T)
 
     def pull_along(self, factors: Floats, chosen: Ints | slice = slice(None)) -> Floats:
-        """(m, 9) the same of its 1/r ∂/∂z."""
-        return np.asarray((factors * (self.inverse_radius[chosen] / self.height[chosen])) @ ALONG.T)
+        """(m, n) the same of its 1/r ∂/∂z."""
+        return np.asarray((factors * (self.inverse_radius[chosen] / self.height[chosen])) @ self.square.along.T)
 
     def start_and_end(
         self, stretch: Floats, lever: Floats, share: Floats, chosen: Ints | slice = slice(None)
@@ -105,28 +71,22 @@ class Cells:
 
     def on_lines(self, by_s: Floats, by_z: Floats) -> tuple[Floats, Floats]:
         """(lines,) twice, from (2, m) by s of the lines where cells start and end, and (m,) times ∂_z V_z."""
-        near, far = self._sides(by_s)
-        columns = near.sum(axis=0), far.sum(axis=0)
-        return self._gathered(columns, by_z.reshape(self.shape).sum(axis=1))
+        start, end = by_s.reshape(2, *self.shape).sum(axis=1)
+        return self._gathered((start, end), by_z.reshape(self.shape).sum(axis=1))
 
     def on_lines_of(self, by_s: Floats, by_z: Floats, fields: Floats) -> tuple[Floats, Floats]:
-        """(lines, k) twice: the same for what is linear in each of k nodal fields (n, k).
+        """(lines, k) twice: the same for what is linear in each of k nodal fields.
 
-        by_s, by_z : (2, m, 9) and (m, 9) by the field's values at the cells' nodes.
+        by_s, by_z : (2, m, n) and (m, n) by the field's values at the cells' nodes.
         """
         rows, columns = self.shape
-        values = fields[self.nodes].reshape(rows, columns, 9, -1)
+        n = self.square.nodes
+        values = fields[self.nodes].reshape(rows, columns, n, -1)
         k = values.shape[-1]
-        sides = np.stack(self._sides(by_s)).transpose(2, 0, 1, 3).reshape(columns, 2, -1)
+        sides = by_s.reshape(2, rows, columns, n).transpose(2, 0, 1, 3).reshape(columns, 2, -1)
         of_columns = sides @ values.transpose(1, 0, 2, 3).reshape(columns, -1, k)
         of_rows = by_z.reshape(rows, 1, -1) @ values.reshape(rows, -1, k)
         return self._gathered((of_columns[:, 0], of_columns[:, 1]), of_rows[:, 0])
-
-    def _sides(self, by_s: Floats) -> tuple[Floats, Floats]:
-        """(rows, columns, ...) twice, by the near and the far line, from (2, m, ...) by start and end."""
-        start, end = by_s.reshape(2, *self.shape, *by_s.shape[2:])
-        mirrored = self._mirrored.reshape(*self.shape, *(1,) * (start.ndim - 2))
-        return np.where(mirrored, end, start), np.where(mirrored, start, end)
 
     def _gathered(self, columns: tuple[Floats, Floats], rows: Floats) -> tuple[Floats, Floats]:
         """(lines, ...) twice from (columns, ...) by the near and the far line, and (rows, ...) times ∂_z V_z."""
@@ -142,11 +102,8 @@ class Cells:
 
 
 @lru_cache(maxsize=16)
-def chequered(rows: int, columns: int) -> tuple[Ints, Ints]:
-    """(m, 9) nodes of the cells, and (rows, columns) which are mirrored: every other one, see `mapped_mesh`."""
-    i, j = np.indices((rows, columns))
-    mirrored = (i + j) % 2 == 1
-    across = np.where(mirrored[..., None], [2, 1, 0], [0, 1, 2])
-    row = 2 * i[..., None] + np.arange(3)
-    nodes = row[..., :, None] * (2 * columns + 1) + (2 * j[..., None] + across)[..., None, :]
-    return nodes.reshape(-1, 9), mirrored
+def cell_nodes(rows: int, columns: int, order: int) -> Ints:
+    """(m, n) nodes of the cells of a lattice."""
+    shape = square(order)
+    i, j = np.indices((rows, columns)).reshape(2, -1, 1)
+    return np.asarray((order * i + shape.rows) * (order * columns + 1) + order * j + shape.columns)

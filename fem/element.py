@@ -12,6 +12,7 @@ The planar problem is the same with both weights 1. The 2π of revolution is the
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -128,3 +129,31 @@ def positions(mesh: Mesh, elements: Ints | None = None, barycentric: Floats = QU
     """(m, q, 2) the points of each element in space, m."""
     nodes = mesh.nodes[mesh.elements if elements is None else mesh.elements[elements]]
     return in_space(mesh.chart, np.einsum("qn,mnk->mqk", shape(barycentric), nodes, optimize=True))
+
+
+KEPT_KERNELS = 3
+"""Of groups of elements, such as iron, magnets and the shell of air that forces are measured in."""
+
+
+class Kernels:
+    """The kernel of a mesh, and of some of its elements without that of all where nobody has asked for it."""
+
+    def __init__(self, mesh: Mesh) -> None:
+        self._mesh = mesh
+        self._of_some: dict[bytes, Kernel] = {}
+
+    @cached_property
+    def kernel(self) -> Kernel:
+        """Of all elements."""
+        return kernel(self._mesh)
+
+    def kernel_of(self, elements: Ints) -> Kernel:
+        """Of some elements. The last few are kept: several figures are of the same elements."""
+        if "kernel" in self.__dict__:
+            return Kernel(self.kernel.curl[elements], self.kernel.weight[elements])
+        code = elements.tobytes()
+        if code not in self._of_some:
+            if len(self._of_some) == KEPT_KERNELS:
+                del self._of_some[next(iter(self._of_some))]
+            self._of_some[code] = kernel(self._mesh, elements)
+        return self._of_some[code]

@@ -49,6 +49,6 @@ def energy_densities(system: System, psi: Floats) -> tuple[Floats, Floats]:
 
 def energies(solution: Solution) -> tuple[float, float]:
     """Energy and coenergy (J) of the whole problem: all the way round, or of its depth."""
-    energy, coenergy = energy_densities(solution.system, solution.psi)
+    energy, coenergy = energy_densities(solution.triangles, solution.psi)
     extent = solution.problem.extent
     return float(energy.sum() * extent), float(coenergy.sum() * extent)

@@ -146,7 +146,7 @@ class FemmSolution:
     def inductances(self) -> Floats:
         """(k, k) incremental inductances dλ_i/dI_j (H) at the solution."""
         solution = self.solution
-        gather = solution.system.topology.gather
+        gather = solution.triangles.topology.gather
         loads = np.column_stack([gather(c.density) for c in solution.problem.circuits])
         return np.asarray(solution.problem.extent * loads.T @ solution.tangent.solve(loads))
 

@@ -1,4 +1,4 @@
-"""The field where one asks for it: at the mesh's nodes, on mesh lines, and as a map for pictures."""
+"""The field where one asks for it: at the mesh's nodes, and as a map for pictures."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ import numpy as np
 
 from fluxbore.fem.element import kernel
 from fluxbore.fem.magnetostatics import Solution
-from fluxbore.fem.mapped import MappedMesh
 from fluxbore.fem.mesh import Floats, Ints
 
 CORNERS_AND_MIDDLES = np.array(
@@ -50,33 +49,6 @@ def nodal_flux_density(solution: Solution, elements: Ints) -> tuple[Ints, Floats
     b_z = np.bincount(place, field[..., 0].ravel()) / count
     b_r = -np.bincount(place, field[..., 1].ravel()) / count
     return unique, np.column_stack((b_r, b_z))
-
-
-def along_radius(solution: Solution, grid: MappedMesh, radius: float, outside: bool = True) -> tuple[Floats, Floats]:
-    """B along a mesh line of constant radius: z (k,) in m and B (k, 2) in (r, z), tesla.
-
-    outside : whether the elements just outside the line are asked, or those just inside it.
-    """
-    mesh = solution.problem.mesh
-    line = grid.r_nodes[grid.column(radius)]
-    strip = line_strip(solution, grid, radius, outside)
-    slack = 1e-9 * line
-    nodes, field = nodal_flux_density(solution, strip)
-    on_line = np.flatnonzero(np.abs(mesh.nodes[nodes, 0] - line) < slack)
-    order = on_line[np.argsort(mesh.nodes[nodes[on_line], 1])]
-    return mesh.nodes[nodes[order], 1], field[order]
-
-
-def line_strip(solution: Solution, grid: MappedMesh, radius: float, outside: bool = True) -> Ints:
-    """The elements just outside (or inside) a mesh line of constant radius (m)."""
-    column = grid.column(radius)
-    mesh = solution.problem.mesh
-    line = grid.r_nodes[column]
-    neighbour = grid.r_nodes[column + (2 if outside else -2)]
-    low, high = min(line, neighbour), max(line, neighbour)
-    corners = mesh.nodes[mesh.elements[:, :3], 0]
-    slack = 1e-9 * high
-    return np.flatnonzero(np.all((corners > low - slack) & (corners < high + slack), axis=1))
 
 
 def flux_map(solution: Solution) -> FluxMap:

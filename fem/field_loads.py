@@ -59,19 +59,19 @@ def knee(curve: BHCurve) -> float:
 
 def tubular_loads(tubular: TubularSolution, coercivity: float) -> tuple[Load, ...]:
     """Of every iron and magnet of a tubular machine. coercivity : of the magnets (A/m), at their temperature."""
-    solution, regions = tubular.solution, tubular.section.regions
-    weight, number = solution.system.kernel.weight, solution.problem.mesh.region
+    cells, psi, regions = tubular.cells, tubular.solution.psi, tubular.section.regions
+    weight, number = cells.weight, cells.region
     parts: dict[str, list[tuple[Floats, Floats]]] = {}
     materials: dict[str, BHCurve | str] = {}
     for index, region in enumerate(regions):
         if region.material is not None and region.material.curve is not None:
-            elements = np.flatnonzero(number == index)
-            size = np.linalg.norm(solution.flux_density(elements), axis=-1)
-            parts.setdefault(_stem(region.name), []).append((weight[elements], size))
+            own = np.flatnonzero(number == index)
+            size = np.hypot(*cells.fields(psi, own))
+            parts.setdefault(_stem(region.name), []).append((weight[own], size))
             materials[_stem(region.name)] = region.material.curve
-    for index, elements, against in reverse_fields(tubular):
+    for index, own, against in reverse_fields(tubular):
         material, name = regions[index].material, _stem(regions[index].name)
-        parts.setdefault(name, []).append((weight[elements], np.maximum(against, 0.0)))
+        parts.setdefault(name, []).append((weight[own], np.maximum(against, 0.0)))
         materials[name] = material.name if material is not None else ""
     names, found = [_stem(item.region.name) for item in tubular.section.rectangles], []
     for name, pieces in parts.items():

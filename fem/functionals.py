@@ -10,11 +10,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from fluxbore.fem.element import QUADRATURE_POINTS, kernel, shape
-from fluxbore.fem.field import CORNERS_AND_MIDDLES, line_strip
-from fluxbore.fem.mapped import MappedMesh, by_lines
+from fluxbore.fem.line_field import LineField
+from fluxbore.fem.mapped import by_lines
 from fluxbore.fem.mesh import Floats
-from fluxbore.fem.moved_points import node_derivative
 from fluxbore.fem.tubular import TubularSolution, reverse_fields
 
 EXPONENT = 32.0
@@ -44,12 +42,6 @@ class Functional:
     adjoint: Floats | None = None
 
 
-def on_lines(grid: MappedMesh, nodes: Floats) -> tuple[Floats, Floats]:
-    """(lines, ...) twice by the s and the z of the grid's lines, from (n, 2, ...) by the nodes."""
-    full = nodes.reshape(grid.z_nodes.size, grid.r_nodes.size, *nodes.shape[1:])
-    return by_lines(full[:, :, 0].sum(axis=0)), by_lines(full[:, :, 1].sum(axis=1))
-
-
 def _blank(tubular: TubularSolution) -> Functional:
     grid = tubular.grid
     return Functional(
@@ -75,7 +67,7 @@ def tube_norm(
     pull = by_sample * np.sign(density) / area
     found.by_psi[grid.node(rows, outer)] += pull
     found.by_psi[grid.node(rows, inner)] -= pull
-    found.s[outer // 2], found.s[inner // 2] = -value / area, value / area
+    found.s[outer // grid.order], found.s[inner // grid.order] = -value / area, value / area
     return found
 
 
@@ -112,8 +104,8 @@ def shell_mean(tubular: TubularSolution, radius: float, z_range: tuple[float, fl
         by_row[row] -= slope * (1 - share)
         by_row[row + 1] -= slope * share
         found.limits[place] = slope - sign * found.value / length
-    found.z[:] = by_lines(by_row)
-    found.s[column // 2] = -found.value / radius**2  # ds = r dr
+    found.z[:] = by_lines(by_row, grid.order)
+    found.s[column // grid.order] = -found.value / radius**2  # ds = r dr
     return found
 
 
@@ -122,24 +114,11 @@ def line_norm(
 ) -> Functional:
     """The p-norm of |B| (T) along a cylinder between two z: (∫ |B|^p dz / length)^(1/p), straight between nodes.
 
-    B at the nodes is recovered as `field.along_radius` does, from the elements just outside.
+    B at the nodes is that of the cells just inside, as in `tubular.stray_field`.
     """
-    grid, solution = tubular.grid, tubular.solution
-    mesh = solution.problem.mesh
-    column = grid.column(radius)
-    strip = line_strip(solution, grid, radius)
-    curl = kernel(mesh, strip, CORNERS_AND_MIDDLES).curl
-    m, q = curl.shape[:2]
-    places = mesh.elements[strip]
-    fields = np.einsum("mqkn,mn->mqk", curl, solution.psi[places], optimize=True)
-    line = grid.node(np.arange(grid.z_nodes.size), column)
-    row_of = np.full(mesh.nodes.shape[0], -1)
-    row_of[line] = np.arange(line.size)
-    row = row_of[places]
-    on_line = row >= 0
-    count = np.bincount(row[on_line], minlength=line.size)
-    sums = [np.bincount(row[on_line], fields[..., k][on_line], line.size) for k in range(2)]
-    b = np.stack(sums, axis=-1) / count[:, None]
+    grid, psi = tubular.grid, tubular.solution.psi
+    line = LineField(grid, radius, outside=False)
+    b = line.field(psi)
     size = np.linalg.norm(b, axis=1)
     largest = float(size.max())
     relative = (size / largest) ** exponent
@@ -149,67 +128,50 @@ def line_norm(
     found = _blank(tubular)
     found.value = value
     outer = value / (exponent * integral)
-    found.z[:] = by_lines(outer * by_z)
     found.limits[:] = outer * (by_limits + np.array([integral / length, -integral / length]))
     by_size = outer * by_density * exponent * relative / np.where(size > 0, size, 1.0)
-    by_b = by_size[:, None] * b / np.where(size > 0, size, 1.0)[:, None] / count[:, None]
-    pull = np.zeros((m, q, 2))
-    pull[on_line] = by_b[row[on_line]]
-    found.by_psi += np.bincount(
-        places.ravel(), np.einsum("mqkn,mqk->mn", curl, pull, optimize=True).ravel(), found.by_psi.size
-    )
-    nodes = node_derivative(
-        mesh,
-        strip,
-        curl.reshape(m, 2 * q, 6),
-        np.ones((m, q)),
-        shape(CORNERS_AND_MIDDLES),
-        ((pull, fields),),
-    )
-    by_s, moved = on_lines(grid, nodes)
+    pull = by_size[:, None] * b / np.where(size > 0, size, 1.0)[:, None]
+    found.by_psi += line.by_psi(pull)
+    by_s, moved = line.by_lines(psi, pull)
     found.s += by_s
-    found.z += moved
+    found.z += moved + by_lines(outer * by_z, grid.order)
     return found
 
 
 def reverse_norm(tubular: TubularSolution, exponent: float = EXPONENT) -> Functional:
     """The p-norm over the magnets' volume of the field against the magnetisation (A/m), where there is one."""
-    solution, mesh = tubular.solution, tubular.solution.problem.mesh
+    cells, materials = tubular.cells, tubular.solution.problem.materials
     found = _blank(tubular)
-    materials = solution.problem.materials
     found.reluctivity, found.coercivity = np.zeros(len(materials)), np.zeros(len(materials))
     magnets = reverse_fields(tubular)
     if not magnets:
         return found
-    elements = np.concatenate([own for _, own, _ in magnets])
+    chosen = np.concatenate([own for _, own, _ in magnets])
     reverse = np.concatenate([field for _, _, field in magnets])
     largest = float(reverse.max())
     if largest <= 0:
         return found
-    region = mesh.region[elements]
-    found_kernel = solution.system.kernel_of(elements)
-    weight, rows = found_kernel.weight, found_kernel.curl
+    region, weight = cells.region[chosen], cells.weight[chosen]
     power = np.maximum(reverse / largest, 0.0) ** exponent
     volume, integral = float(weight.sum()), float(np.sum(weight * power))
     value = largest * (integral / volume) ** (1 / exponent)
     found.value = value
     sign = np.array([np.sign(material.remanence[1]) for material in materials])[region][:, None]
     nu = np.array([material.components[1] for material in materials])[region][:, None]
-    by_reverse = value / integral * power / np.where(reverse > 0, reverse, 1.0)
-    by_row = np.zeros((*reverse.shape, 2))
-    by_row[..., 0] = -sign * nu * by_reverse
-    flat = rows.reshape(elements.size, -1, 6)
-    field = (flat @ solution.psi[mesh.elements[elements]][..., None]).reshape(by_row.shape)
-    pull = ((by_row * weight[..., None]).reshape(elements.size, 1, -1) @ flat)[:, 0]
-    found.by_psi += np.bincount(mesh.elements[elements].ravel(), pull.ravel(), found.by_psi.size)
-    density = value / exponent * (power / integral - 1 / volume)
-    nodes = node_derivative(mesh, elements, flat, weight, shape(QUADRATURE_POINTS), ((by_row, field),), density)
-    by_s, by_z = on_lines(tubular.grid, nodes)
+    change = sign * weight * value / integral * power / np.where(reverse > 0, reverse, 1.0)
+    b_z, _ = cells.fields(tubular.solution.psi, chosen)
+    pull = cells.pull_across(-nu * change, chosen)
+    found.by_psi += np.bincount(cells.nodes[chosen].ravel(), pull.ravel(), found.by_psi.size)
+    # What is integrated is carried along by the cells' area, and B_z = ∂ψ/∂s falls as a cell grows wider.
+    area = np.sum(weight * value / exponent * (power / integral - 1 / volume), axis=1)
+    stretch_s, stretch_z = np.zeros((2, cells.region.size))
+    stretch_s[chosen], stretch_z[chosen] = area + np.sum(nu * change * b_z, axis=1), area
+    nothing = np.zeros(cells.region.size)
+    by_s, by_z = cells.on_lines(cells.start_and_end(stretch_s, nothing, nothing), stretch_z)
     found.s += by_s
     found.z += by_z
-    change = sign * weight * by_reverse
     found.coercivity += np.bincount(region, change.sum(axis=1), len(materials))
-    found.reluctivity -= np.bincount(region, (change * field[..., 0]).sum(axis=1), len(materials))
+    found.reluctivity -= np.bincount(region, (change * b_z).sum(axis=1), len(materials))
     return found
 
 

@@ -95,7 +95,7 @@ class Blocks:
     def energies(self) -> tuple[float, float]:
         """J."""
         solution = self.solution.solution
-        energy, coenergy = energy_densities(solution.system, solution.psi)
+        energy, coenergy = energy_densities(solution.triangles, solution.psi)
         return float(energy[self.elements].sum() * self.extent), float(coenergy[self.elements].sum() * self.extent)
 
     @cached_property

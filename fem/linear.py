@@ -108,7 +108,7 @@ class Corrected:
             return np.column_stack([self.within(column, tolerance) for column in right.T])
         found = conjugate_gradients(
             lambda x: np.asarray(self._matrix @ x),
-            self.nearest.once if isinstance(self.nearest, BandedCholesky) else self.nearest.solve,
+            self.nearest.solve,
             right,
             max(tolerance, self.TOLERANCE),
             self._affordable,
@@ -128,7 +128,7 @@ class Corrected:
         """
         size = _lengths(right)
         goal = tolerance * size
-        x = self.nearest.once(right) if isinstance(self.nearest, BandedCholesky) else self.nearest.solve(right)
+        x = self.nearest.solve(right)
         correct = self.nearest.solve_roughly if isinstance(self.nearest, BandedCholesky) else self.nearest.solve
         for sweep in range(1, MOST_REFINEMENTS + 1):
             rest = right - self._matrix @ x

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 
 from fluxbore.fem.element import (
     QUADRATURE_WEIGHTS,
     Kernel,
+    Kernels,
     flux_density_squared,
-    kernel,
     positions,
     stiffness,
     to_frame,
@@ -20,11 +21,8 @@ from fluxbore.fem.element import (
 from fluxbore.fem.factors import Factor
 from fluxbore.fem.linear import Corrected, Method, Tangents, factorise
 from fluxbore.fem.mesh import Floats, Ints, Mesh
-from fluxbore.fem.newton import ROUGHEST, Convergence, newton
-from fluxbore.fem.problem import LinearPart, MagneticMaterial, Problem, Stack
-
-KEPT_KERNELS = 3
-"""Of groups of elements in a system, such as iron, magnets and the shell of air that forces are measured in."""
+from fluxbore.fem.newton import ROUGHEST, Convergence, Iterative, newton
+from fluxbore.fem.problem import MagneticMaterial, Problem, Stack
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,50 +34,57 @@ class Settings:
     method: Method = "banded"
 
 
-class System:
+class Equations(Protocol):
+    """The discrete equations of a problem, as Newton and all who read a solution need them.
+
+    load : (unknowns,). iron : of a nonlinear problem, anything; empty for a linear one.
+    """
+
+    problem: Problem
+    load: Floats
+    iron: list[tuple[int, slice]]
+
+    @property
+    def kernel(self) -> Kernel: ...
+
+    def kernel_of(self, elements: Ints) -> Kernel: ...
+
+    def unknowns(self, psi: Floats | None) -> Floats: ...
+
+    def spread(self, unknowns: Floats) -> Floats: ...
+
+    def response(self, factor: Factor, load: Floats, accuracy: float) -> Floats: ...
+
+    def residual(self, unknowns: Floats) -> Floats: ...
+
+    def tangents(self, method: Method) -> Callable[[Floats], Factor]: ...
+
+    def tangent_at(self, unknowns: Floats, neighbour: Factor | None, method: Method) -> Factor: ...
+
+
+class System(Kernels):
     """The discrete equations of a problem: what is linear is assembled once, iron at each step.
 
     Iron is a tenth of the elements, so a Newton step touches a tenth of them.
     """
 
-    def __init__(self, problem: Problem, part: LinearPart | None = None) -> None:
-        """part : what is linear, where it is known by another way; without prescribed ψ only."""
-        self.problem = problem
+    def __init__(self, problem: Problem) -> None:
         mesh = problem.mesh
+        super().__init__(mesh)
+        self.problem = problem
         self.topology = mesh.topology
         self.inner = self.topology.nodes_of_freedom
         self.pattern = self.topology.pattern
-        self._kernels: dict[bytes, Kernel] = {}
-        load = self._magnet_load() if part is None else part.load.copy()
+        load = self._magnet_load()
         for circuit in (*problem.circuits, *problem.sources):
             if circuit.current:
                 load += circuit.current * circuit.density
         if problem.edges is not None:
             load += problem.edges.load
-        if part is None:
-            load -= self._assemble_linear()
-        else:
-            self.linear = part.values
+        load -= self._assemble_linear()
         self.load = self.topology.gather(load)
         self._gather_iron()
         self._state: tuple[Floats, tuple[Floats, Floats, Floats]] | None = None
-
-    @cached_property
-    def kernel(self) -> Kernel:
-        """Of all elements."""
-        return kernel(self.problem.mesh)
-
-    def kernel_of(self, elements: Ints) -> Kernel:
-        """Of some elements, without that of all where nobody has asked for it. The last few are kept: several figures
-        are of the same elements."""
-        if "kernel" in self.__dict__:
-            return Kernel(self.kernel.curl[elements], self.kernel.weight[elements])
-        code = elements.tobytes()
-        if code not in self._kernels:
-            if len(self._kernels) == KEPT_KERNELS:
-                del self._kernels[next(iter(self._kernels))]
-            self._kernels[code] = kernel(self.problem.mesh, elements)
-        return self._kernels[code]
 
     @cached_property
     def linear_factor(self) -> Floats:
@@ -155,9 +160,29 @@ class System:
             load += np.bincount(mesh.elements[elements].ravel(), pull.ravel(), load.size)
         return load
 
+    def unknowns(self, psi: Floats | None) -> Floats:
+        """Of nodal ψ; zero without."""
+        return np.zeros(self.inner.size) if psi is None else psi[self.inner]
+
     def spread(self, unknowns: Floats) -> Floats:
         """(n,) nodal ψ from the unknowns, with the prescribed values."""
         return self.topology.spread(unknowns, self.problem.prescribed)
+
+    def response(self, factor: Factor, load: Floats, accuracy: float) -> Floats:
+        """(n, k) nodal, what a factorised matrix gives for nodal loads (n, k)."""
+        found = solved(factor, np.column_stack([self.topology.gather(column) for column in load.T]), accuracy)
+        return np.column_stack([self.topology.spread(column) for column in found.T])
+
+    def tangents(self, method: Method) -> Callable[[Floats], Factor]:
+        """Makes the residual's derivative ready to solve with; raises SingularMatrixError."""
+        return Tangents(self.pattern, self.tangent_values, method)
+
+    def tangent_at(self, unknowns: Floats, neighbour: Factor | None, method: Method) -> Factor:
+        """The same at one point, by a factor that is near where there is one."""
+        values = self.tangent_values(unknowns)
+        if neighbour is None:
+            return factorise(self.pattern, values, method)
+        return Corrected(self.pattern, values, neighbour, method)
 
     def _iron_state(self, unknowns: Floats) -> tuple[Floats, Floats, Floats]:
         """B (m, q, 2), ν and dν/d|B|² (m, q) in the iron's elements. The last one is kept: a residual and its tangent
@@ -208,6 +233,11 @@ class System:
         return values
 
 
+def solved(factor: Factor, right: Floats, accuracy: float) -> Floats:
+    """x (n, k) to this accuracy of its residual where the factor can do with less than all."""
+    return factor.within(right, accuracy) if accuracy and isinstance(factor, Iterative) else factor.solve(right)
+
+
 def in_sheets(stack: Stack) -> Floats:
     """(2,) flux density inside the sheets per flux density of the stack, by row of the kernel's frame."""
     rows = np.ones(2)
@@ -234,17 +264,28 @@ class Solution:
     problem: Problem
     psi: Floats
     convergence: Convergence
-    system: System
+    system: Equations
     method: Method
     last_factor: Factor | None
+
+    @property
+    def triangles(self) -> System:
+        """The equations of a general mesh's elements."""
+        assert isinstance(self.system, System)
+        return self.system
 
     @cached_property
     def tangent(self) -> Factor:
         """The tangent at the solution, ready to solve with: one solution gives any incremental figure."""
-        values = self.system.tangent_values(self.psi[self.system.inner])
-        if self.last_factor is None:
-            return factorise(self.system.pattern, values, self.method)
-        return Corrected(self.system.pattern, values, self.last_factor, self.method)
+        return self.system.tangent_at(self.system.unknowns(self.psi), self.last_factor, self.method)
+
+    def response(self, load: Floats, accuracy: float = 0.0) -> Floats:
+        """K_T⁻¹ times nodal loads (n,) or (n, k), as nodal fields: zero where ψ is prescribed.
+
+        accuracy : of the residual relative to the load; as good as it gets without.
+        """
+        found = self.system.response(self.tangent, load.reshape(load.shape[0], -1), accuracy)
+        return found.reshape(load.shape)
 
     def flux_density(self, elements: Ints | None = None) -> Floats:
         """(m, q, 2) B in the kernel's frame, at the quadrature points of all or of some elements."""
@@ -257,21 +298,21 @@ class Solution:
 
 
 def solve(
-    problem: Problem, settings: Settings | None = None, start: Floats | None = None, part: LinearPart | None = None
+    problem: Problem, settings: Settings | None = None, start: Floats | None = None, system: Equations | None = None
 ) -> Solution:
     """Solve a magnetostatic problem.
 
     start : (n,) nodal ψ to begin from, such as a neighbouring position's on the same topology; zero without it.
-    part : the linear part, where it is known.
+    system : the problem's equations; those of its mesh's triangles without.
 
     A failure to converge is in the solution's ``convergence``.
     """
     settings = settings or Settings()
-    system = System(problem, part)
-    first = np.zeros(system.inner.size) if start is None else start[system.inner]
+    system = System(problem) if system is None else system
+    first = system.unknowns(start)
     unknowns, convergence, factor = newton(
         system.residual,
-        Tangents(system.pattern, system.tangent_values, settings.method),
+        system.tangents(settings.method),
         first,
         # Without a load, of a model of iron alone, the prescribed potentials are what drives it.
         float(np.linalg.norm(system.load)) or float(np.linalg.norm(system.residual(np.zeros_like(first)))),

@@ -1,4 +1,4 @@
-"""Mapped meshes of fixed topology on a cross-section of rectangles.
+"""Mapped meshes of fixed topology on a cross-section of rectangles: quadrilaterals of second or fourth order.
 
 Every interval between two breakpoints gets a number of cells that depends on its name alone, never on its length, and
 nodes move linearly with the breakpoints. Figures are therefore smooth functions of the design, which a search needs;
@@ -29,29 +29,40 @@ class Subdivision:
     fine: str = "both"
 
     def fractions(self, refinement: int) -> Floats:
-        """(cells * refinement + 1,) from 0 to 1.
+        """(cells * refinement + 1,) from 0 to 1; not to be written to.
 
         A refined mesh cuts every cell of the default mesh into equal parts, so that meshes are nested and their
         results converge at a rate.
         """
+        return _fractions(self, refinement)
+
+    def steps(self) -> Floats:
+        """(cells,) lengths of the default mesh's cells, to any measure."""
         if self.fine == "both":
             half = np.minimum(np.arange(self.cells), np.arange(self.cells)[::-1])
-            steps = self.growth**half
-        else:
-            steps = self.growth ** np.arange(self.cells, dtype=float)
-            steps = steps[::-1] if self.fine == "end" else steps
-        lines = np.concatenate(([0.0], np.cumsum(steps) / np.sum(steps)))
-        coarse = np.arange(self.cells + 1)
-        return np.interp(np.arange(self.cells * refinement + 1) / refinement, coarse, lines)
+            return np.asarray(self.growth**half)
+        steps = self.growth ** np.arange(self.cells, dtype=float)
+        return steps[::-1] if self.fine == "end" else steps
+
+
+@lru_cache(maxsize=256)
+def _fractions(division: Subdivision, refinement: int) -> Floats:
+    steps = division.steps()
+    lines = np.concatenate(([0.0], np.cumsum(steps) / np.sum(steps)))
+    coarse = np.arange(division.cells + 1)
+    return np.interp(np.arange(division.cells * refinement + 1) / refinement, coarse, lines)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MappedMesh:
-    """A mesh with the grid it came from.
+    """Rectangular cells in rows and columns, on a lattice of nodes.
 
-    r_lines, z_lines : the mesh lines in space (m), midside nodes left out.
-    r_nodes, z_nodes : node rows: every corner and midside coordinate (chart, m² and m). Node (i, j) of row i in z and
-    j in s has the number i * len(r_nodes) + j.
+    order : of the polynomials in a cell, which has this many intervals between nodes along either side.
+    r_lines, z_lines : the mesh lines in space (m), where cells meet.
+    r_nodes, z_nodes : the lattice (chart, m² and m), evenly between two lines. Node (i, j) of row i in z and j in s
+    has the number i * len(r_nodes) + j.
+    region : (rows, columns) index of each cell's region.
+    mesh : quadratic triangles on the same nodes, for pictures and for what is read off the field.
     """
 
     mesh: Mesh
@@ -59,6 +70,18 @@ class MappedMesh:
     z_lines: Floats
     r_nodes: Floats
     z_nodes: Floats
+    region: Ints
+    order: int = 2
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Rows and columns of cells."""
+        return self.z_lines.size - 1, self.r_lines.size - 1
+
+    @property
+    def topology(self) -> Topology:
+        """What designs and positions share: two grids of one topology have the same nodes in the same places."""
+        return self.mesh.topology
 
     def node(self, i: Ints | int, j: Ints | int) -> Ints:
         """Number of the node in z row i and s column j."""
@@ -66,7 +89,7 @@ class MappedMesh:
 
     def column(self, radius: float) -> int:
         """Number of the node column on the mesh line nearest to a radius (m)."""
-        return 2 * self.line(radius)
+        return self.order * self.line(radius)
 
     def line(self, radius: float) -> int:
         """Number of the mesh line nearest to a radius (m)."""
@@ -79,20 +102,24 @@ def mapped_mesh(
     z_cells: Mapping[str, Subdivision],
     refinement: int = 1,
     open_rim: bool = False,
+    order: int = 2,
 ) -> MappedMesh:
     """Mesh the cross-section; the cells of each interval follow from its name.
 
     open_rim : whether ψ is unknown on the far edges, for a condition that opens them; it is zero there otherwise.
+    order : of the polynomials in a cell, 2 or 4.
     """
+    assert order % 2 == 0  # triangles have a node at half of their sides
     r_lines, r_interval = _lines(section.r, r_cells, refinement)
     z_lines, z_interval = _lines(section.z, z_cells, refinement)
-    s_nodes = _with_middles(r_lines**2 / 2)
-    z_nodes = _with_middles(z_lines)
-    topology, cell_of_element = _grid_topology(z_lines.size - 1, r_lines.size - 1, open_rim)
+    s_nodes, z_nodes = lattice(r_lines**2 / 2, order), lattice(z_lines, order)
+    split = order // 2
+    topology, patch_of_element = _grid_topology(split * (z_lines.size - 1), split * (r_lines.size - 1), open_rim)
     s, z = np.meshgrid(s_nodes, z_nodes)
-    region = section.cells[np.ix_(z_interval, r_interval)].ravel()[cell_of_element]
-    mesh = Mesh("axisymmetric", np.column_stack((s.ravel(), z.ravel())), region, topology)
-    return MappedMesh(mesh, r_lines, z_lines, s_nodes, z_nodes)
+    region = section.cells[np.ix_(z_interval, r_interval)]
+    patches = region.repeat(split, axis=0).repeat(split, axis=1).ravel()
+    mesh = Mesh("axisymmetric", np.column_stack((s.ravel(), z.ravel())), patches[patch_of_element], topology)
+    return MappedMesh(mesh, r_lines, z_lines, s_nodes, z_nodes, region, order)
 
 
 def _lines(points: Breakpoints, cells: Mapping[str, Subdivision], refinement: int) -> tuple[Floats, Ints]:
@@ -107,16 +134,16 @@ def _lines(points: Breakpoints, cells: Mapping[str, Subdivision], refinement: in
     return np.concatenate(lines), np.concatenate(interval)
 
 
-def _with_middles(lines: Floats) -> Floats:
-    nodes = np.empty(2 * lines.size - 1)
-    nodes[::2] = lines
-    nodes[1::2] = (lines[1:] + lines[:-1]) / 2
-    return nodes
+def lattice(lines: Floats, order: int) -> Floats:
+    """The lines, and between each two of them order − 1 nodes at even steps."""
+    share = np.arange(order) / order
+    between = lines[:-1, None] + np.diff(lines)[:, None] * share
+    return np.append(between.ravel(), lines[-1])
 
 
 @lru_cache(maxsize=16)
 def _grid_topology(nz: int, nr: int, open_rim: bool) -> tuple[Topology, Ints]:
-    """Two triangles in each of nz x nr cells, diagonals alternating so that no direction is favoured.
+    """Two triangles in each of nz x nr patches of three by three nodes, in alternating ways: no direction is favoured.
 
     Every node of the triangles is a node of the (2 nz + 1) x (2 nr + 1) grid. Nodes are numbered along r first: the
     domain is long in z, so the matrix has a narrow band. The axis carries ψ = 0, and so do the far edges, which no flux
@@ -139,8 +166,7 @@ def _grid_topology(nz: int, nr: int, open_rim: bool) -> tuple[Topology, Ints]:
     if not open_rim:
         inside &= (rows > 0) & (rows < 2 * nz) & (columns < width - 1)
     freedom = np.where(inside, np.cumsum(inside) - 1, -1)
-    inner = np.flatnonzero((rows % 2 == 1) & (columns % 2 == 1))
-    return Topology(elements, freedom, inner=inner), np.repeat(np.arange(nz * nr), 2)
+    return Topology(elements, freedom), np.repeat(np.arange(nz * nr), 2)
 
 
 def breakpoint_derivative(grid: MappedMesh, section: CrossSection, s: Floats, z: Floats) -> tuple[Floats, Floats]:
@@ -152,11 +178,12 @@ def breakpoint_derivative(grid: MappedMesh, section: CrossSection, s: Floats, z:
     return _from_lines(section.r, grid.r_lines, s * grid.r_lines[:, None]), _from_lines(section.z, grid.z_lines, z)
 
 
-def by_lines(nodes: Floats) -> Floats:
-    """(lines, ...) by a grid's lines, from (nodes, ...) by its rows or columns of nodes: middles are half way."""
-    lines = nodes[::2].copy()
-    lines[:-1] += nodes[1::2] / 2
-    lines[1:] += nodes[1::2] / 2
+def by_lines(nodes: Floats, order: int) -> Floats:
+    """(lines, ...) by a grid's lines, from (nodes, ...) by its rows or columns of nodes."""
+    lines = nodes[::order].copy()
+    for k in range(1, order):
+        lines[:-1] += (1 - k / order) * nodes[k::order]
+        lines[1:] += k / order * nodes[k::order]
     return lines
 
 

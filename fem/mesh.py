@@ -30,14 +30,12 @@ class Topology:
         together share an unknown.
     sign : (n,) ±1, −1 where an antiperiodic boundary turns the unknown round; None for +1 everywhere.
     mate : (n,) the node that stands for each node and those tied to it; None where each stands for itself.
-    inner : (i,) nodes inside of cells of several elements, of which no two meet in an element; see `Pattern`.
     """
 
     elements: Ints
     freedom: Ints
     sign: Ints | None = None
     mate: Ints | None = None
-    inner: Ints | None = None
 
     @property
     def mates(self) -> Ints:
@@ -52,8 +50,7 @@ class Topology:
     def pattern(self) -> Pattern:
         """Where element matrices land in the global one."""
         sign = None if self.sign is None else self.sign[self.elements]
-        inner = None if self.inner is None else self.freedom[self.inner]
-        return Pattern.of_elements(self.freedom[self.elements], self.unknowns, sign, inner)
+        return Pattern.of_elements(self.freedom[self.elements], self.unknowns, sign)
 
     @cached_property
     def nodes_of_freedom(self) -> Ints:

@@ -12,8 +12,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fluxbore.fem.condensation import Condensation
-
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int_]
 
@@ -50,7 +48,6 @@ class Pattern:
     gather : of all elements' matrices.
     freedom : (m, k) unknown of each element's node, -1 where there is none.
     sign : (m, k) ±1, the node's value being sign times the unknown; None where all are +1.
-    inner : (i,) unknowns of which no two meet in an element, worth condensing out of a band; None where there are none.
     """
 
     unknowns: int
@@ -59,10 +56,9 @@ class Pattern:
     gather: Gather
     freedom: Ints
     sign: Ints | None
-    inner: Ints | None = None
 
     @classmethod
-    def of_elements(cls, freedom: Ints, unknowns: int, sign: Ints | None = None, inner: Ints | None = None) -> Pattern:
+    def of_elements(cls, freedom: Ints, unknowns: int, sign: Ints | None = None) -> Pattern:
         """freedom : (m, k) unknown of each element's node, -1 where there is none.
 
         sign : (m, k) ±1, the node's value being sign times the unknown (-1 on one side of an antiperiodic pair). Two
@@ -85,7 +81,7 @@ class Pattern:
         signs = None
         if sign is not None:
             signs = (sign[:, :, None] * sign[:, None, :]).ravel()[sources].astype(float)
-        return cls(unknowns, rows, columns, Gather(rows.size, sources, targets, signs), freedom, sign, inner)
+        return cls(unknowns, rows, columns, Gather(rows.size, sources, targets, signs), freedom, sign)
 
     @property
     def nonzeros(self) -> int:
@@ -124,11 +120,6 @@ class Pattern:
         """Sources and targets of some elements only, for matrices (len(elements), k, k) of just these; no signs."""
         gather = self.subset_assembler(elements)
         return gather.sources, gather.targets
-
-    @cached_property
-    def condensation(self) -> Condensation | None:
-        """How the inner unknowns are condensed out of a band; None where there are none."""
-        return None if self.inner is None else Condensation(self, self.inner)
 
     @cached_property
     def bandwidth(self) -> int:

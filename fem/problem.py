@@ -131,17 +131,6 @@ class EdgeTerms:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class LinearPart:
-    """What is linear in a problem without prescribed ψ.
-
-    values : (nnz,) of the mesh's pattern; soft iron counts as nothing. load : (n,) of the magnets.
-    """
-
-    values: Floats
-    load: Floats
-
-
-@dataclass(frozen=True, slots=True, eq=False)
 class Problem:
     """A mesh with the material of each of its regions, and the circuits that run through it.
 

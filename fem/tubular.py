@@ -9,79 +9,88 @@ from functools import cached_property
 import numpy as np
 
 from fluxbore.design.materials import PermanentMagnet
-from fluxbore.fem.asymptotic import open_edges
-from fluxbore.fem.field import along_radius
-from fluxbore.fem.force import incremental_thrust, thrust_response
-from fluxbore.fem.linkage import Cut, circuits, cuts, flux_linkages, synchronous_inductance
+from fluxbore.fem.asymptotic import open_rim
+from fluxbore.fem.cell_force import shell_pull
+from fluxbore.fem.cell_system import CellSystem
+from fluxbore.fem.cells import Cells
+from fluxbore.fem.coil_windows import Windows
+from fluxbore.fem.line_field import along_radius
+from fluxbore.fem.linkage import flux_linkages, synchronous_inductance
 from fluxbore.fem.magnetostatics import Settings, Solution, solve
 from fluxbore.fem.mapped import MappedMesh, Subdivision, mapped_mesh
 from fluxbore.fem.mesh import Floats, Ints
 from fluxbore.fem.newton import Convergence
 from fluxbore.fem.problem import MagneticMaterial, Problem
-from fluxbore.fem.rectangles import linear_part, shell_pull
 from fluxbore.fem.reluctivity import VACUUM_RELUCTIVITY, reluctivity_curve
 from fluxbore.geometry.cross_section import CrossSection, Region
 
+ORDER = 4
+"""Of the polynomials in a cell."""
+
 R_CELLS = {
-    "shaft": Subdivision(3),
-    "magnet": Subdivision(5, 1.3),
+    "shaft": Subdivision(1),
+    "magnet": Subdivision(3, 10.0),
     "clearance": Subdivision(1),
-    "cylinder": Subdivision(3),
-    "winding": Subdivision(3),
-    "yoke clearance": Subdivision(1),
-    "back yoke": Subdivision(3),
-    "near air": Subdivision(3, 1.5, "start"),
-    "far air": Subdivision(6, 1.8, "start"),
+    "cylinder": Subdivision(1),
+    "winding": Subdivision(1),
+    "back yoke": Subdivision(1),
+    "near air": Subdivision(1),
+    "far air": Subdivision(1),
 }
 """Cells of the default mesh along r, by what lies there."""
 
 Z_CELLS = {
-    "ring": Subdivision(6, 1.6),
-    "half ring": Subdivision(3),
-    "magnet": Subdivision(6, 1.8),
-    "cap end": Subdivision(10, 1.35, "end"),
-    "rod end": Subdivision(10, 1.35, "start"),
-    "beyond cap end": Subdivision(7, 1.6, "end"),
-    "beyond rod end": Subdivision(7, 1.6, "start"),
+    "ring": Subdivision(4, 8.0),
+    "half ring": Subdivision(3, 8.0),
+    "magnet": Subdivision(3, 3.0),
+    "cap end": Subdivision(4, 3.0, "end"),
+    "rod end": Subdivision(4, 3.0, "start"),
+    "beyond cap end": Subdivision(3, 4.0, "end"),
+    "beyond rod end": Subdivision(3, 4.0, "start"),
 }
-"""Cells of the default mesh along z, by what lies there."""
+"""Cells of the default mesh along z, by what lies there. Where iron has a corner they are small and grow away from it
+by much: inside of a cell the field is told by polynomials, which only a corner's field is not like (Babuška and Guo
+1986)."""
 
 
 @dataclass(frozen=True, eq=False)
 class TubularSolution:
-    """A machine's field at one position, with the grid it lives on.
-
-    windows : what the coils cut out of the grid, kept for derivatives.
-    """
+    """A machine's field at one position, with the grid it lives on."""
 
     position: float
     section: CrossSection
     grid: MappedMesh
     solution: Solution
-    windows: tuple[Cut, ...] | None = None
 
     @property
     def convergence(self) -> Convergence:
         return self.solution.convergence
 
     @cached_property
+    def cells(self) -> Cells:
+        """Of the grid, with all that does not depend on the field."""
+        system = self.solution.system
+        return system.cells if isinstance(system, CellSystem) else Cells(self.grid)
+
+    @cached_property
     def pull(self) -> Floats:
         """(n,) ∂F/∂ψ of the axial force F = ½ ψ·∂F/∂ψ."""
-        return shell_pull(self.grid, self.section.force_annulus, self.solution.psi)
+        return shell_pull(self.cells, self.section.force_annulus, self.solution.psi)
 
     @cached_property
     def response(self) -> Floats:
         """(n,) K_T⁻¹ ∂F/∂ψ of the axial force: what thrust constants and their gradients begin with."""
-        return thrust_response(self.solution, self.section.force_annulus, self.pull)
+        return self.solution.response(self.pull)
 
     @cached_property
     def reverse(self) -> list[tuple[int, Ints, Floats]]:
         """See `reverse_fields`."""
-        return _reverse_fields(self.solution)
+        return _reverse_fields(self)
 
     def thrust_constants(self) -> Floats:
-        """(3,) incremental thrust per ampere in each phase (N/A), by the stress tensor."""
-        return incremental_thrust(self.solution, self.section.force_annulus, self.response)
+        """(3,) incremental thrust per ampere in each phase (N/A), by the stress tensor: with K_T y = ∂F/∂ψ, each
+        phase's is y · (its load per ampere). No second field is needed, and cogging drops out."""
+        return np.array([self.response @ circuit.density for circuit in self.solution.problem.circuits])
 
     def cogging_force(self) -> float:
         """Axial force on the mover at no current (N)."""
@@ -90,6 +99,12 @@ class TubularSolution:
     def flux_linkages(self) -> Floats:
         """(3,) of the phases at no current (Wb)."""
         return flux_linkages(self.solution)
+
+    def highest_flux_density(self) -> float:
+        """Largest |B| (T) in iron."""
+        curved = [material.curve is not None for material in self.solution.problem.materials]
+        iron = np.flatnonzero(np.array(curved)[self.cells.region])
+        return float(np.hypot(*self.cells.fields(self.solution.psi, iron)).max(initial=0.0))
 
     def synchronous_inductance(self) -> float:
         """Incremental, of the balanced winding (H): a phase's own less its mutual one, means over the three."""
@@ -122,7 +137,7 @@ def solve_positions(
     solved: list[TubularSolution] = []
     for position in positions:
         section = section_at(position)
-        grid = mapped_mesh(section, R_CELLS, Z_CELLS, refinement, open_rim=True)
+        grid = mapped_mesh(section, R_CELLS, Z_CELLS, refinement, open_rim=True, order=ORDER)
         item = _solved(section, grid, position, {}, settings, _predicted(solved[-3:], position, grid))
         solved.append(item)
         if not item.convergence.converged:
@@ -139,7 +154,7 @@ def solve_currents(
     near: TubularSolution | None = None,
 ) -> TubularSolution:
     """The field at given currents (A) by phase, the others at none; begun from a near one, or from no field."""
-    grid = mapped_mesh(section, R_CELLS, Z_CELLS, refinement, open_rim=True)
+    grid = mapped_mesh(section, R_CELLS, Z_CELLS, refinement, open_rim=True, order=ORDER)
     return _solved(section, grid, position, currents, settings, None if near is None else near.solution.psi)
 
 
@@ -153,16 +168,24 @@ def _solved(
 ) -> TubularSolution:
     """The problem of a meshed cross-section in open air, solved."""
     materials = tuple(magnetic_material(region) for region in section.regions)
-    windows = cuts(grid.mesh, section.coils)
+    return TubularSolution(position, section, grid, solve_grid(section, grid, materials, currents, settings, start))
+
+
+def solve_grid(
+    section: CrossSection,
+    grid: MappedMesh,
+    materials: tuple[MagneticMaterial, ...],
+    currents: Mapping[str, float] | None = None,
+    settings: Settings | None = None,
+    start: Floats | None = None,
+) -> Solution:
+    """The field of a cross-section's mesh whose rim is open. materials : by region. currents : A, by phase."""
     coils = tuple(
-        replace(circuit, current=currents.get(circuit.name, 0.0))
-        for circuit in circuits(grid.mesh, section.coils, windows)
+        replace(circuit, current=(currents or {}).get(circuit.name, 0.0))
+        for circuit in Windows(grid, section.coils).circuits()
     )
-    problem = Problem(grid.mesh, materials, coils, edges=open_edges(grid, section.ends))
-    # SuperLU is the plain way in all: general assembly, general factorisation.
-    plain = settings is not None and settings.method != "banded"
-    part = None if plain else linear_part(grid, materials, problem.edges)
-    return TubularSolution(position, section, grid, solve(problem, settings, start, part), windows)
+    problem = Problem(grid.mesh, materials, coils)
+    return solve(problem, settings, start, CellSystem(problem, grid, open_rim(grid, section.ends)))
 
 
 def _predicted(before: Sequence[TubularSolution], position: float, grid: MappedMesh) -> Floats | None:
@@ -186,7 +209,7 @@ def space_vector(phases: Floats) -> complex:
 
 def stray_field(tubular: TubularSolution, radius: float, z_range: tuple[float, float]) -> float:
     """Largest |B| (T) on a cylinder of this radius, a mesh line, between two z (m)."""
-    z, field = along_radius(tubular.solution, tubular.grid, radius)
+    z, field = along_radius(tubular.grid, tubular.solution.psi, radius, outside=False)
     size = np.linalg.norm(field, axis=1)
     ends = np.interp(z_range, z, size)
     inside = size[(z > z_range[0]) & (z < z_range[1])]
@@ -219,23 +242,21 @@ def shell_flux_density(tubular: TubularSolution, radius: float, z_range: tuple[f
 
 
 def reverse_fields(tubular: TubularSolution) -> list[tuple[int, Ints, Floats]]:
-    """Of each magnet its region, its elements (m,) and the field against its magnetisation (A/m) at their quadrature
+    """Of each magnet its region, its cells (m,) and the field against its magnetisation (A/m) at their quadrature
     points (m, q)."""
     return tubular.reverse
 
 
-def _reverse_fields(solution: Solution) -> list[tuple[int, Ints, Floats]]:
-    remanences = [material.remanence[1] for material in solution.problem.materials]
-    region = solution.problem.mesh.region
-    # By magnet, as those who put them together again have them.
-    all_magnets = np.concatenate([np.flatnonzero(region == k) for k in np.flatnonzero(remanences)] or [region[:0]])
-    b_z = solution.flux_density(all_magnets)[..., 0]
+def _reverse_fields(tubular: TubularSolution) -> list[tuple[int, Ints, Floats]]:
+    materials, cells, psi = tubular.solution.problem.materials, tubular.cells, tubular.solution.psi
     found = []
-    for index in np.flatnonzero(remanences):
-        own = region[all_magnets] == index
-        nu = solution.problem.materials[index].components[1]
-        reverse = -nu * (b_z[own] * np.sign(remanences[index]) - abs(remanences[index]))
-        found.append((int(index), all_magnets[own], reverse))
+    for index, material in enumerate(materials):
+        remanence = material.remanence[1]
+        if not remanence:
+            continue
+        own = np.flatnonzero(cells.region == index)
+        b_z, _ = cells.fields(psi, own)
+        found.append((index, own, -material.components[1] * (b_z * np.sign(remanence) - abs(remanence))))
     return found
 
 
@@ -251,8 +272,8 @@ def _magnets(tubular: TubularSolution) -> tuple[Floats, Floats]:
     fields = reverse_fields(tubular)
     if not fields:
         return np.zeros((0, 1)), np.zeros((0, 1))
-    elements = np.concatenate([own for _, own, _ in fields])
-    return tubular.solution.system.kernel_of(elements).weight, np.concatenate([field for _, _, field in fields])
+    cells = np.concatenate([own for _, own, _ in fields])
+    return tubular.cells.weight[cells], np.concatenate([field for _, _, field in fields])
 
 
 def mean_reverse_field(tubular: TubularSolution, exponent: float) -> float:

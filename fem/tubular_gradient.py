@@ -13,14 +13,13 @@ import numpy as np
 
 from fluxbore.fem.adjoint import Linearisation
 from fluxbore.fem.asymptotic import OpenRim
-from fluxbore.fem.force import ForceShell
+from fluxbore.fem.cell_force import shell_pull
+from fluxbore.fem.coil_windows import Windows
 from fluxbore.fem.functionals import Functional
-from fluxbore.fem.linear import Corrected
 from fluxbore.fem.mapped import breakpoint_derivative
 from fluxbore.fem.mesh import Floats
 from fluxbore.fem.reluctivity import VACUUM_RELUCTIVITY
 from fluxbore.fem.tubular import TubularSolution, space_vector
-from fluxbore.fem.window_derivative import Windows
 
 ACCURACY = 1e-11
 """Of adjoint fields, and so of gradients: relative residual."""
@@ -37,8 +36,7 @@ class TubularAdjoint:
         self.tubular = tubular
         solution = tubular.solution
         self._densities = np.column_stack([circuit.density for circuit in solution.problem.circuits])
-        self._shell = ForceShell(solution, tubular.section.force_annulus)
-        self._pull = self._shell.gradient(solution.psi)
+        self._pull = tubular.pull
 
     @cached_property
     def linearisation(self) -> Linearisation:
@@ -46,7 +44,7 @@ class TubularAdjoint:
 
     @cached_property
     def _windows(self) -> Windows:
-        return Windows(self.tubular.grid, self.tubular.section.coils, self.tubular.windows)
+        return Windows(self.tubular.grid, self.tubular.section.coils)
 
     @cached_property
     def _rim(self) -> OpenRim:
@@ -73,7 +71,7 @@ class TubularAdjoint:
         rim = self._rim.derivative(x[:, None], response[:, None])
         return Functional(
             1.5 * abs(vector),
-            self._shell.gradient(x) - by_psi,
+            shell_pull(tubular.cells, tubular.section.force_annulus, x) - by_psi,
             s + (load.s - derivative.s - rim.s)[:, 0],
             z + (load.z - derivative.z - rim.z)[:, 0],
             windows=load.windows[..., 0],
@@ -92,7 +90,7 @@ class TubularAdjoint:
         """(lines,) twice, derivatives of xᵀ G y by the grid's lines, from its value.
 
         Its density has one derivative along s, one along z and over ds dz no metric: lines that move leave it as it is
-        (`ForceShell`). Only the shell's own width is left.
+        (`cell_force`). Only the shell's own width is left.
         """
         grid, (inner, outer) = self.tubular.grid, self.tubular.section.force_annulus
         s = np.zeros(grid.r_lines.size)
@@ -209,15 +207,7 @@ class TubularAdjoint:
 
     def _solved(self, right: Floats) -> Floats:
         """(n, k) nodal adjoint fields of nodal right sides (n, k)."""
-        solution = self.tubular.solution
-        inner = solution.system.inner
-        found = np.zeros(right.shape)
-        tangent = solution.tangent
-        if isinstance(tangent, Corrected):
-            found[inner] = tangent.within(right[inner], ACCURACY)
-        else:
-            found[inner] = tangent.solve(right[inner])
-        return found
+        return self.tubular.solution.response(right, ACCURACY)
 
     def _by_phase(self, weights: Floats, field: Floats) -> dict[str, Floats]:
         """A nodal field times each phase's weight, by the circuit's name."""

@@ -24,7 +24,8 @@ def cross_section(
 ) -> CrossSection:
     """Rectangles of the machine with its magnet array's cap-side face at ``position`` (m).
 
-    Winding, cylinder, pistons and end caps count as air unless the cylinder is soft iron; coils are windows.
+    Winding, cylinder, pistons and end caps count as air unless the cylinder is soft iron. Coils are windows, so that
+    no line is needed between them and the yoke.
     """
     far = FAR_DIAMETERS * actuator.back_yoke.outer_diameter
     radii = [
@@ -33,7 +34,6 @@ def cross_section(
         actuator.mover.outer_diameter / 2,
         actuator.cylinder.inner_diameter / 2,
         actuator.cylinder.outer_diameter / 2,
-        actuator.winding.outer_diameter / 2,
         actuator.back_yoke.inner_diameter / 2,
         actuator.back_yoke.outer_diameter / 2,
         actuator.back_yoke.outer_diameter / 2 + STRAY_DISTANCE,
@@ -41,14 +41,14 @@ def cross_section(
     ]
     r = breakpoints(
         radii,
-        ("shaft", "magnet", "clearance", "cylinder", "winding", "yoke clearance", "back yoke", "near air", "far air"),
+        ("shaft", "magnet", "clearance", "cylinder", "winding", "back yoke", "near air", "far air"),
         SMALLEST,
     )
     rectangles = _mover(actuator, position, materials, magnet_temperature)
     rectangles.append(
         Rectangle(
             Region("back yoke", materials[actuator.back_yoke.material]),
-            (radii[6], radii[7]),
+            (radii[5], radii[6]),
             (actuator.yoke_start, actuator.yoke_end),
         )
     )

@@ -72,10 +72,10 @@ def by_fem(spec: Spec, gradient: Sequence[str] = ()) -> Evaluation:
     positions = tuple(position_result(item, actuator.mover.pole_pitch) for item in field.window)
     figures = field_figures(spec, field, positions)
     performance = complete(spec, figures)
-    topology = field.middle.grid.mesh.topology
+    grid = field.middle.grid
     details = {
-        "elements": float(topology.elements.shape[0]),
-        "unknowns": float(topology.unknowns),
+        "elements": float(grid.region.size),
+        "unknowns": float(grid.topology.unknowns),
         "newton_iterations": float(sum(item.convergence.iterations for item in (*field.window, *field.peaks))),
         "largest_residual": max(item.convergence.residual for item in (*field.window, *field.peaks)),
     }

@@ -9,8 +9,8 @@ from __future__ import annotations
 from itertools import pairwise
 
 import numpy as np
+from stress_force import axial_force
 
-from fluxbore.fem.force import axial_force
 from fluxbore.fem.magnetostatics import Settings, Solution, solve
 from fluxbore.fem.mapped import Subdivision, mapped_mesh
 from fluxbore.fem.mesh import Mesh, Topology

@@ -14,14 +14,12 @@ import numpy as np
 from actuators import table_ii
 
 from fluxbore.design.materials import standard
-from fluxbore.fem.asymptotic import open_edges
-from fluxbore.fem.linkage import circuits
-from fluxbore.fem.magnetostatics import Settings, solve
-from fluxbore.fem.mapped import MappedMesh, mapped_mesh
+from fluxbore.fem.magnetostatics import Settings
+from fluxbore.fem.mapped import MappedMesh, lattice, mapped_mesh
 from fluxbore.fem.mesh import Floats, Mesh
-from fluxbore.fem.problem import MagneticMaterial, Problem
+from fluxbore.fem.problem import MagneticMaterial
 from fluxbore.fem.reluctivity import ReluctivityCurve
-from fluxbore.fem.tubular import R_CELLS, Z_CELLS, TubularSolution, magnetic_material
+from fluxbore.fem.tubular import ORDER, R_CELLS, Z_CELLS, TubularSolution, magnetic_material, solve_grid
 from fluxbore.geometry.cross_section import AIR, Breakpoints, CoilWindow, CrossSection, Rectangle, numbers
 from fluxbore.geometry.hybrid import cross_section
 
@@ -57,18 +55,13 @@ def solved(
     curve: ReluctivityCurve | None = None,
 ) -> TubularSolution:
     """Its field, all iron being of one curve, by phase currents (A)."""
-    grid = mapped_mesh(section, COARSE_R, COARSE_Z, open_rim=True)
+    grid = mapped_mesh(section, COARSE_R, COARSE_Z, open_rim=True, order=ORDER)
     curve = curve or cubic_iron()
     materials = tuple(
         MagneticMaterial(curve=curve) if material.curve is not None else material
         for material in map(magnetic_material, section.regions)
     )
-    coils = tuple(
-        replace(circuit, current=(currents or {}).get(circuit.name, 0.0))
-        for circuit in circuits(grid.mesh, section.coils)
-    )
-    problem = Problem(grid.mesh, materials, coils, edges=open_edges(grid, section.ends))
-    solution = solve(problem, Settings(1e-13))
+    solution = solve_grid(section, grid, materials, currents, Settings(1e-13))
     assert solution.convergence.converged, solution.convergence
     return TubularSolution(POSITION, section, grid, solution)
 
@@ -124,14 +117,11 @@ def lengths(section: CrossSection) -> Floats:
 def with_lines(grid: MappedMesh, s: Floats, z: Floats) -> MappedMesh:
     """The same mesh with other lines: s (m²) and z (m), (lines,)."""
 
-    def with_middles(lines: Floats) -> Floats:
-        return np.interp(np.arange(2 * lines.size - 1) / 2, np.arange(lines.size), lines)
-
-    s_nodes, z_nodes = with_middles(s), with_middles(z)
+    s_nodes, z_nodes = lattice(s, grid.order), lattice(z, grid.order)
     flat_s, flat_z = np.meshgrid(s_nodes, z_nodes)
     nodes = np.column_stack((flat_s.ravel(), flat_z.ravel()))
     mesh = Mesh("axisymmetric", nodes, grid.mesh.region, grid.mesh.topology)
-    return MappedMesh(mesh, np.sqrt(2 * s), z, s_nodes, z_nodes)
+    return MappedMesh(mesh, np.sqrt(2 * s), z, s_nodes, z_nodes, grid.region, grid.order)
 
 
 def difference(function: Callable[[float], Floats], step: float) -> Floats:

@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 
 from fluxbore.design.spec import load
-from fluxbore.fem.element import QUADRATURE_POINTS, shape
+from fluxbore.fem.cell_system import CellSystem
+from fluxbore.fem.cells import Cells
+from fluxbore.fem.coil_windows import circuits
 from fluxbore.fem.field import nodal_flux_density
-from fluxbore.fem.linkage import circuits
 from fluxbore.fem.magnetostatics import Solution, solve
-from fluxbore.fem.mapped import Subdivision, mapped_mesh
+from fluxbore.fem.mapped import MappedMesh, Subdivision, mapped_mesh
 from fluxbore.fem.problem import Circuit, MagneticMaterial, Problem
 from fluxbore.fem.tubular import solve_positions, space_vector
 from fluxbore.geometry.cross_section import Breakpoints, CoilWindow, CrossSection
@@ -28,25 +29,34 @@ def exact(s: np.ndarray, z: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndar
     return wave, a * np.cos(a * s) * np.sin(b * z), (a**2 + b**2 / (2 * s)) * wave
 
 
-def manufactured(cells: int) -> Solution:
+def manufactured(cells: int, order: int = 2) -> tuple[MappedMesh, Solution]:
     """The field of that load on cells by cells rectangles, graded so that no symmetry helps."""
     section = CrossSection(
         Breakpoints((0.0, RADIUS), ("r",)), Breakpoints((0.0, LENGTH), ("z",)), (), np.zeros((1, 1), dtype=int), (), (),
         (0.0, 0.0),
     )  # fmt: skip
-    division = Subdivision(4, 1.3, "start")
-    mesh = mapped_mesh(section, {"r": division}, {"z": division}, cells // 4).mesh
-    bare = solve(Problem(mesh, (MagneticMaterial(1.0),)))
-    values = shape(QUADRATURE_POINTS)
-    s, z = (np.einsum("mn,qn->mq", mesh.nodes[mesh.elements][..., k], values) for k in (0, 1))
-    shares = np.einsum("mq,qn->mn", exact(s, z)[2] * bare.system.kernel.weight, values)
-    load = np.bincount(mesh.elements.ravel(), shares.ravel(), mesh.nodes.shape[0])
-    return solve(Problem(mesh, (MagneticMaterial(1.0),), (Circuit("source", load, 1.0),)))
+    first = 4 if order == 2 else 1
+    division = Subdivision(first, 1.3, "start")
+    grid = mapped_mesh(section, {"r": division}, {"z": division}, cells // first, order=order)
+    bare = Cells(grid)
+    nodes, values = grid.mesh.nodes[bare.nodes], bare.square.values
+    shares = (exact(nodes[..., 0] @ values, nodes[..., 1] @ values)[2] * bare.weight) @ values.T
+    load = np.bincount(bare.nodes.ravel(), shares.ravel(), grid.mesh.nodes.shape[0])
+    problem = Problem(grid.mesh, (MagneticMaterial(1.0),), (Circuit("source", load, 1.0),))
+    return grid, solve(problem, system=CellSystem(problem, grid))
 
 
 @pytest.fixture(scope="module")
 def fields() -> list[Solution]:
-    return [manufactured(cells) for cells in CELLS]
+    return [manufactured(cells)[1] for cells in CELLS]
+
+
+def energy_errors(fields: list[Solution]) -> list[float]:
+    x, w = np.polynomial.legendre.leggauss(30)
+    s, z = np.meshgrid(TOP * (x + 1) / 2, LENGTH * (x + 1) / 2)
+    wave, _, load = exact(s, z)
+    true = TOP * LENGTH / 4 * np.einsum("i,j,ij->", w, w, load * wave)
+    return [abs(float(field.system.load @ field.psi) / true - 1) for field in fields]
 
 
 def rates(errors: list[float]) -> np.ndarray:
@@ -55,12 +65,15 @@ def rates(errors: list[float]) -> np.ndarray:
 
 def test_energy_converges_with_the_fourth_power(fields: list[Solution]) -> None:
     """Catches a lost order anywhere: element, quadrature, 1/r next to the axis. Asserts a rate of at least 3.8."""
-    x, w = np.polynomial.legendre.leggauss(30)
-    s, z = np.meshgrid(TOP * (x + 1) / 2, LENGTH * (x + 1) / 2)
-    wave, _, load = exact(s, z)
-    true = TOP * LENGTH / 4 * np.einsum("i,j,ij->", w, w, load * wave)
-    errors = [abs(float(field.system.load @ field.psi[field.system.inner]) / true - 1) for field in fields]
+    errors = energy_errors(fields)
     assert np.all(rates(errors) > 3.8), errors
+
+
+def test_energy_of_the_fourth_order_converges_with_the_eighth_power() -> None:
+    """Catches a lost order of the designs' own cells: shape functions, quadrature, condensation."""
+    errors = energy_errors([manufactured(cells, order=4)[1] for cells in (4, 8, 16)])
+    assert rates(errors)[0] > 7.0, errors
+    assert errors[-1] < 3e-11, "rounding"
 
 
 def test_flux_density_converges_alike_on_the_axis_and_beside_it(fields: list[Solution]) -> None:
@@ -78,7 +91,7 @@ def test_flux_density_converges_alike_on_the_axis_and_beside_it(fields: list[Sol
     assert on_axis[-1] < 3 * beside[-1]
 
 
-def test_linkage_of_a_window_converges_fast(fields: list[Solution]) -> None:
+def test_linkage_of_a_window_converges_fast() -> None:
     """Catches a window integral of low order, its ends inside cells: a mean rate of at least 3."""
     window = CoilWindow("coil", 1.0, (0.0, RADIUS), (0.0437, 0.1113))
     x, w = np.polynomial.legendre.leggauss(40)
@@ -86,7 +99,8 @@ def test_linkage_of_a_window_converges_fast(fields: list[Solution]) -> None:
     b = np.pi / LENGTH
     axial = (np.cos(b * window.z[0]) - np.cos(b * window.z[1])) / b
     true = RADIUS / 2 * float(w @ np.sin(np.pi * r**2 / 2 / TOP)) * axial / window.area
-    errors = [abs(float(circuits(f.problem.mesh, [window])[0].density @ f.psi) / true - 1) for f in fields]
+    solved = [manufactured(cells) for cells in CELLS]
+    errors = [abs(float(circuits(grid, [window])[0].density @ field.psi) / true - 1) for grid, field in solved]
     assert rates(errors).mean() > 3, errors
 
 

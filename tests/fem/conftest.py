@@ -7,10 +7,31 @@ import numpy as np
 import pytest
 
 from fluxbore.design.spec import Spec, load
+from fluxbore.fem.coil_windows import circuits
+from fluxbore.fem.magnetostatics import Solution, solve
 from fluxbore.fem.mapped import MappedMesh, Subdivision, mapped_mesh
-from fluxbore.fem.tubular import TubularSolution, solve_positions
+from fluxbore.fem.problem import Problem
+from fluxbore.fem.tubular import TubularSolution, magnetic_material, solve_positions
 from fluxbore.geometry.cross_section import Breakpoints, CrossSection
 from fluxbore.geometry.hybrid import cross_section
+
+TRIANGLES_R = {
+    **dict.fromkeys(("shaft", "cylinder", "winding", "back yoke"), Subdivision(3)),
+    "magnet": Subdivision(5, 1.3),
+    "clearance": Subdivision(1),
+    "near air": Subdivision(3, 1.5, "start"),
+    "far air": Subdivision(6, 1.8, "start"),
+}
+TRIANGLES_Z = {
+    "ring": Subdivision(6, 1.6),
+    "half ring": Subdivision(3),
+    "magnet": Subdivision(6, 1.8),
+    "cap end": Subdivision(10, 1.35, "end"),
+    "rod end": Subdivision(10, 1.35, "start"),
+    "beyond cap end": Subdivision(7, 1.6, "end"),
+    "beyond rod end": Subdivision(7, 1.6, "start"),
+}
+"""Cells nearer to squares than the designs' own, for solvers that mind."""
 
 
 @pytest.fixture(scope="session")
@@ -24,6 +45,15 @@ def mid_stroke(spec: Spec) -> TubularSolution:
     """The published motor with its mover in the middle."""
     actuator = spec.actuator
     return solve_positions(lambda z: cross_section(actuator, z, spec.materials, 293.15), [actuator.mid_stroke])[0]
+
+
+@pytest.fixture(scope="session")
+def in_triangles(spec: Spec) -> Solution:
+    """The same in a closed box by the general solver, on quadratic triangles."""
+    section = cross_section(spec.actuator, spec.actuator.mid_stroke, spec.materials, 293.15)
+    grid = mapped_mesh(section, TRIANGLES_R, TRIANGLES_Z)
+    materials = tuple(magnetic_material(region) for region in section.regions)
+    return solve(Problem(grid.mesh, materials, circuits(grid, section.coils)))
 
 
 @pytest.fixture(scope="session")

@@ -11,11 +11,11 @@ from small_motor import COARSE_R, COARSE_Z, cubic_iron, difference, small_sectio
 
 from fluxbore.design.materials import standard
 from fluxbore.fem.adjoint import Linearisation
-from fluxbore.fem.asymptotic import OpenRim, open_edges
-from fluxbore.fem.magnetostatics import Solution, System
+from fluxbore.fem.asymptotic import OpenRim, open_rim
+from fluxbore.fem.cell_system import CellSystem
+from fluxbore.fem.magnetostatics import Solution
 from fluxbore.fem.mapped import MappedMesh, breakpoint_derivative, mapped_mesh
 from fluxbore.fem.newton import Convergence
-from fluxbore.fem.pattern import Pattern
 from fluxbore.fem.problem import MagneticMaterial, Problem
 from fluxbore.fem.reluctivity import reluctivity_curve
 
@@ -38,16 +38,16 @@ class Case:
 
     def solution(self, grid: MappedMesh, materials: tuple[MagneticMaterial, ...], psi: Array) -> Solution:
         problem = Problem(grid.mesh, materials)
-        return Solution(problem, psi, Convergence("converged", 0, 0.0), System(problem), "banded", None)
+        return Solution(problem, psi, Convergence("converged", 0, 0.0), CellSystem(problem, grid), "banded", None)
 
     def products(self, solution: Solution) -> Array:
         """μᵀR of the three test fields, then xᵀ K_T y of the first two."""
-        system, inner = solution.system, solution.system.inner
-        residual = system.residual(solution.psi[inner])
-        x, y, _ = (field[inner] for field in self.tests)
-        pattern: Pattern = system.pattern
-        tangent = pattern.multiply(system.tangent_values(solution.psi[inner]), y)
-        return np.array([*(field[inner] @ residual for field in self.tests), x @ tangent])
+        system = solution.system
+        assert isinstance(system, CellSystem)
+        residual = system.residual(solution.psi)
+        x, y, _ = self.tests
+        tangent = system.tangent_product(solution.psi, y[:, None])[:, 0]
+        return np.array([*(field @ residual for field in self.tests), x @ tangent])
 
 
 @pytest.fixture(scope="module")
@@ -150,9 +150,8 @@ def test_the_open_rim(case: Case) -> None:
 
     def at(s: Array, z: Array, poles: tuple[float, float]) -> float:
         grid = with_lines(case.grid, s, z)
-        edges = open_edges(grid, poles)
-        places = grid.mesh.elements[edges.elements]
-        return float(np.einsum("kij,ki,kj->", edges.matrices, u[places], v[places]))
+        rim = open_rim(grid, poles)
+        return float(np.einsum("kij,ki,kj->", rim.matrices, u[rim.nodes], v[rim.nodes]))
 
     def moved(lines: Array, k: int, step: float) -> Array:
         return lines + step * (np.arange(lines.size) == k)

@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 
 from fluxbore.design.spec import Spec
-from fluxbore.fem.asymptotic import across_end, across_shell, open_edges
+from fluxbore.fem.asymptotic import across_end, across_shell, open_rim
+from fluxbore.fem.cell_system import CellSystem
+from fluxbore.fem.coil_windows import circuits
 from fluxbore.fem.factors import SingularMatrixError
-from fluxbore.fem.linear import factorise
-from fluxbore.fem.linkage import circuits, flux_linkages
-from fluxbore.fem.magnetostatics import Solution, System, solve
+from fluxbore.fem.linkage import flux_linkages
+from fluxbore.fem.magnetostatics import Solution, solve
 from fluxbore.fem.mapped import MappedMesh, Subdivision, mapped_mesh
 from fluxbore.fem.problem import Circuit, MagneticMaterial, Problem
 from fluxbore.fem.reluctivity import VACUUM_RELUCTIVITY
@@ -71,22 +72,23 @@ def section(
     )
 
 
-def grid_of(found: CrossSection, cells: int, open_rim: bool) -> MappedMesh:
+def grid_of(found: CrossSection, cells: int, is_open: bool) -> MappedMesh:
     growth = 1.0 + 1.4 / cells
     near = {"r": Subdivision(cells), "z": Subdivision(cells)}
     r_cells = {**near, "far": Subdivision(2 * cells, growth, "start")}
     z_cells = {**near, "low": Subdivision(2 * cells, growth, "end"), "high": Subdivision(2 * cells, growth, "start")}
-    return mapped_mesh(found, r_cells, z_cells, open_rim=open_rim)
+    return mapped_mesh(found, r_cells, z_cells, open_rim=is_open)
 
 
 def test_edge_terms_are_the_boundarys_flux() -> None:
     """Catches an edge that is left out or on another element: matrices times 1 and ψ against ∮ c ψ²/r by quadrature."""
     grid = grid_of(section(0.1, (-0.1, -0.05, 0.11, 0.15)), 6, True)
-    edges = open_edges(grid, POLES)
+    rim = open_rim(grid, POLES)
     s, z = grid.mesh.nodes.T
     psi = s * (1 + 3 * z)
-    nodal = psi[grid.mesh.elements[edges.elements]]
-    found = np.einsum("kij,ki,kj->", edges.matrices, nodal, nodal)
+    forces = np.zeros(psi.size)
+    rim.add_forces(forces, psi)
+    found = psi @ forces
     x, w = np.polynomial.legendre.leggauss(200)
     at, length = 0.025 + 0.125 * x, 0.125
     expected = length * w @ (across_shell(0.1, at, POLES) / 0.1 * (0.005 * (1 + 3 * at)) ** 2)
@@ -94,21 +96,18 @@ def test_edge_terms_are_the_boundarys_flux() -> None:
     for end, distances in ((-0.1, (0.05, 0.21)), (0.15, (0.04, 0.2))):
         expected += 0.05 * w @ (across_end(r, distances) / r * (r**2 / 2 * (1 + 3 * end)) ** 2)
     assert found == pytest.approx(VACUUM_RELUCTIVITY * expected, rel=1e-5)
-    assert not edges.load.any()
     on_rim = (s == s.max()) | (z == z.min()) | (z == z.max())
-    touched = np.unique(grid.mesh.elements[edges.elements][np.any(edges.matrices != 0, axis=2)])
-    assert np.array_equal(touched, np.flatnonzero(on_rim))
+    assert np.array_equal(np.unique(rim.nodes), np.flatnonzero(on_rim))
 
 
-def loop_solution(far: float, open_rim: bool, cells: int = 5) -> Solution:
+def loop_solution(far: float, is_open: bool, cells: int = 5) -> Solution:
     """A coil of 1 A in air that ends ``far`` (m) beyond it."""
     coil = CoilWindow("coil", 1.0, (0.04, 0.05), (-0.01, 0.01))
     found = section(0.05 + far, (-0.01 - far, -0.01, 0.01, 0.01 + far), (coil,), (0.04, 0.05))
-    grid = grid_of(found, cells, open_rim)
-    (idle,) = circuits(grid.mesh, (coil,))
-    loaded = (Circuit(idle.name, idle.density, 1.0),)
-    edges = open_edges(grid, found.ends) if open_rim else None
-    return solve(Problem(grid.mesh, (MagneticMaterial(),), loaded, edges=edges))
+    grid = grid_of(found, cells, is_open)
+    (idle,) = circuits(grid, (coil,))
+    problem = Problem(grid.mesh, (MagneticMaterial(),), (Circuit(idle.name, idle.density, 1.0),))
+    return solve(problem, system=CellSystem(problem, grid, open_rim(grid, found.ends) if is_open else None))
 
 
 def test_a_coil_in_open_air() -> None:
@@ -133,8 +132,8 @@ def test_iron_of_any_length_keeps_the_matrix_positive(length: float) -> None:
     materials = (MagneticMaterial(), MagneticMaterial(1e-6 * VACUUM_RELUCTIVITY))
 
     def factor(poles: tuple[float, float]) -> None:
-        system = System(Problem(grid.mesh, materials, edges=open_edges(grid, poles)))
-        factorise(system.pattern, system.linear, "banded")
+        system = CellSystem(Problem(grid.mesh, materials), grid, open_rim(grid, poles))
+        system.tangents("banded")(np.zeros(grid.mesh.nodes.shape[0]))
 
     factor(iron.z)
     if length > 1:
@@ -176,8 +175,9 @@ def test_less_air_will_do(spec: Spec) -> None:
             open_rim=is_open,
         )
         materials = tuple(magnetic_material(region) for region in found.regions)
-        edges = open_edges(grid, found.ends) if is_open else None
-        solution = solve(Problem(grid.mesh, materials, circuits(grid.mesh, found.coils), edges=edges))
+        problem = Problem(grid.mesh, materials, circuits(grid, found.coils))
+        rim = open_rim(grid, found.ends) if is_open else None
+        solution = solve(problem, system=CellSystem(problem, grid, rim))
         assert solution.convergence.converged
         return float(np.linalg.norm(flux_linkages(solution)))
 

@@ -9,8 +9,9 @@ from hypothesis import strategies as st
 from small_motor import difference, small_section, solved, with_lines
 
 from fluxbore.fem import functionals
-from fluxbore.fem.functionals import EXPONENT, Functional, clipped_integral, norm, on_lines
-from fluxbore.fem.magnetostatics import System
+from fluxbore.fem.cell_system import CellSystem
+from fluxbore.fem.functionals import EXPONENT, Functional, clipped_integral, norm
+from fluxbore.fem.mapped import by_lines
 from fluxbore.fem.problem import MagneticMaterial
 from fluxbore.fem.tubular import (
     TubularSolution,
@@ -52,7 +53,7 @@ def on_other_lines(tubular: TubularSolution, s: Array, z: Array) -> TubularSolut
     """The same ψ at the nodes of a moved mesh."""
     grid = with_lines(tubular.grid, s, z)
     problem = replace(tubular.solution.problem, mesh=grid.mesh)
-    solution = replace(tubular.solution, problem=problem, system=System(problem))
+    solution = replace(tubular.solution, problem=problem, system=CellSystem(problem, grid))
     return replace(tubular, grid=grid, solution=solution)
 
 
@@ -75,7 +76,7 @@ def test_by_the_mesh_lines(tubular: TubularSolution, name: str) -> None:
     limits = LIMITS.get(name, (0.0, 0.0))
     found = made(tubular, name, limits)
     s, z = tubular.grid.r_lines**2 / 2, tubular.grid.z_lines
-    for axis, (lines, by_lines) in enumerate(((s, found.s), (z, found.z))):
+    for axis, (lines, own) in enumerate(((s, found.s), (z, found.z))):
         for k in range(1 - axis, lines.size):
             reach = float(np.diff(lines)[max(k - 1, 0) : k + 1].min())
 
@@ -85,7 +86,7 @@ def test_by_the_mesh_lines(tubular: TubularSolution, name: str) -> None:
                 return made(on_other_lines(tubular, *moved), name, limits).value
 
             expected = float(difference(at, 1e-4)) / reach
-            assert by_lines[k] == pytest.approx(expected, rel=1e-6, abs=1e-7 * found.value / reach), (axis, k)
+            assert own[k] == pytest.approx(expected, rel=1e-6, abs=1e-7 * found.value / reach), (axis, k)
 
 
 @pytest.mark.parametrize("name", list(LIMITS))
@@ -204,7 +205,8 @@ def test_nodes_by_lines(tubular: TubularSolution) -> None:
     grid = tubular.grid
     rng = np.random.default_rng(3)
     by_nodes = rng.uniform(-1, 1, (grid.mesh.nodes.shape[0], 2))
-    s, z = on_lines(grid, by_nodes)
+    lattice = by_nodes.reshape(grid.z_nodes.size, grid.r_nodes.size, 2)
+    s, z = by_lines(lattice[..., 0].sum(axis=0), grid.order), by_lines(lattice[..., 1].sum(axis=1), grid.order)
     move_s, move_z = rng.uniform(0, 1, grid.r_lines.size), rng.uniform(-1, 1, grid.z_lines.size)
     moved = with_lines(grid, grid.r_lines**2 / 2 + 1e-9 * move_s, grid.z_lines + 1e-9 * move_z)
     expected = np.sum(by_nodes * (moved.mesh.nodes - grid.mesh.nodes)) / 1e-9

@@ -5,9 +5,8 @@ import pytest
 
 from fluxbore.fem.factors import BandedCholesky, SingularMatrixError, SuperLU
 from fluxbore.fem.linear import Corrected, factorise
-from fluxbore.fem.magnetostatics import Settings, solve
+from fluxbore.fem.magnetostatics import Settings, Solution, solve
 from fluxbore.fem.pattern import Pattern
-from fluxbore.fem.tubular import TubularSolution
 
 
 @pytest.fixture(scope="module")
@@ -154,9 +153,9 @@ def test_a_singular_matrix_is_refused(small: tuple[Pattern, np.ndarray, np.ndarr
         factorise(pattern, np.zeros(pattern.nonzeros), "banded" if method == "banded" else "superlu")
 
 
-def test_banded_equals_superlu_on_the_motor(mid_stroke: TubularSolution) -> None:
+def test_banded_equals_superlu_on_the_motor(in_triangles: Solution) -> None:
     """Catches a factorisation that is inexact where it matters: two methods, one field, to 1e-10."""
-    problem = mid_stroke.solution.problem
+    problem = in_triangles.problem
     one, other = (solve(problem, Settings(1e-12, method=method)) for method in ("banded", "superlu"))
     assert one.convergence.converged
     assert other.convergence.converged
@@ -182,9 +181,9 @@ def test_corrected_neighbour_equals_a_factor_of_its_own(
     assert corrected.solve(np.zeros(shape)) == pytest.approx(np.zeros(shape))
 
 
-def test_corrected_tangent_of_the_motor_equals_a_factorisation(mid_stroke: TubularSolution) -> None:
+def test_corrected_tangent_of_the_motor_equals_a_factorisation(in_triangles: Solution) -> None:
     """Catches thrust constants from a tangent that is one Newton step old."""
-    solution = mid_stroke.solution
+    solution = in_triangles
     values = solution.system.tangent_values(solution.psi[solution.system.inner])
     right = np.random.default_rng(6).normal(size=solution.system.inner.size)
     exact = factorise(solution.system.pattern, values, "superlu").solve(right)

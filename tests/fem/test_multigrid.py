@@ -8,12 +8,11 @@ import pytest
 from fluxbore.fem.element import kernel, stiffness
 from fluxbore.fem.factors import BandedCholesky, SingularMatrixError, SuperLU
 from fluxbore.fem.linear import Corrected, choose, factorise
-from fluxbore.fem.magnetostatics import Settings, solve
+from fluxbore.fem.magnetostatics import Settings, Solution, solve
 from fluxbore.fem.mapped import MappedMesh
 from fluxbore.fem.mesh import Floats, Mesh, Topology
 from fluxbore.fem.multigrid import Multigrid
 from fluxbore.fem.pattern import Pattern, near_numbering
-from fluxbore.fem.tubular import TubularSolution
 
 IRON = 1e-4
 """Reluctivity relative to that of air."""
@@ -76,10 +75,10 @@ def test_iterations_hardly_depend_on_the_size(block: Callable[..., MappedMesh]) 
     assert counts[2] <= counts[1] + 4
 
 
-def test_stretched_cells(mid_stroke: TubularSolution) -> None:
+def test_stretched_cells(in_triangles: Solution) -> None:
     """Catches aggregation across weak couplings: the motor's cells are far from square."""
-    system = mid_stroke.solution.system
-    values = system.tangent_values(mid_stroke.solution.psi[system.inner])
+    system = in_triangles.triangles
+    values = system.tangent_values(in_triangles.psi[system.inner])
     hierarchy = Multigrid(system.pattern, values)
     found = hierarchy.solve(system.load)
     exact = BandedCholesky(system.pattern, values).solve(system.load)
@@ -129,10 +128,10 @@ def test_a_neighbour_keeps_its_hierarchy(block: Callable[..., MappedMesh], chang
     assert np.abs(SuperLU(pattern, values).solve(right) - exact).max() > 1e-3 * np.abs(exact).max()
 
 
-def test_newton_by_multigrid_equals_newton_by_factors(mid_stroke: TubularSolution) -> None:
+def test_newton_by_multigrid_equals_newton_by_factors(in_triangles: Solution) -> None:
     """Catches steps too inexact for Newton's method."""
-    problem = mid_stroke.solution.problem
-    start = 0.99 * mid_stroke.solution.psi
+    problem = in_triangles.problem
+    start = 0.99 * in_triangles.psi
     one, other = (solve(problem, Settings(1e-10, method=method), start) for method in ("banded", "multigrid"))
     assert one.convergence.converged
     assert other.convergence.converged

@@ -12,12 +12,11 @@ from fluxbore.fem import linear
 from fluxbore.fem.conductors import Conductor, circuit
 from fluxbore.fem.factors import Factor, SingularMatrixError
 from fluxbore.fem.linear import Method, Tangents
-from fluxbore.fem.magnetostatics import Settings, System, solve
+from fluxbore.fem.magnetostatics import Settings, Solution, System, solve
 from fluxbore.fem.mapped import MappedMesh
 from fluxbore.fem.newton import ROUGHEST, Convergence, newton
 from fluxbore.fem.problem import Circuit, MagneticMaterial, Problem
 from fluxbore.fem.reluctivity import reluctivity_curve
-from fluxbore.fem.tubular import TubularSolution
 
 
 class Diagonal:
@@ -49,20 +48,20 @@ def test_root_of_a_cubic() -> None:
     assert factor is not None
 
 
-def test_convergence_is_quadratic(mid_stroke: TubularSolution) -> None:
+def test_convergence_is_quadratic(in_triangles: Solution) -> None:
     """Catches a tangent that is only nearly right: near the motor's solution each residual is the last one's square."""
-    system = mid_stroke.solution.system
-    problem = mid_stroke.solution.problem
+    system = in_triangles.triangles
+    problem = in_triangles.problem
     norms = [solve(problem, Settings(tolerance=0.0, max_iterations=k)).convergence.residual for k in range(1, 8)]
     assert system.iron_elements.size > 0
     logs = np.log([norm for norm in norms if norm > 1e-11][-3:])
     assert (logs[2] - logs[1]) / (logs[1] - logs[0]) > 1.8, norms
 
 
-def test_tangent_is_the_derivative_of_the_residual(mid_stroke: TubularSolution) -> None:
+def test_tangent_is_the_derivative_of_the_residual(in_triangles: Solution) -> None:
     """Catches a lost term of the differential reluctivity: against central differences, to 1e-7."""
-    system = mid_stroke.solution.system
-    x = 0.9 * mid_stroke.solution.psi[system.inner]
+    system = in_triangles.triangles
+    x = 0.9 * in_triangles.psi[system.inner]
     direction = np.random.default_rng(1).normal(size=x.size) * np.abs(x).max()
     image = system.pattern.multiply(system.tangent_values(x), direction)
     errors = []
@@ -72,9 +71,9 @@ def test_tangent_is_the_derivative_of_the_residual(mid_stroke: TubularSolution) 
     assert min(errors) < 1e-7, errors
 
 
-def test_residual_is_the_derivative_of_the_energy(mid_stroke: TubularSolution) -> None:
+def test_residual_is_the_derivative_of_the_energy(in_triangles: Solution) -> None:
     """Catches a residual that solves another problem: against differences of the energy, iron by its own integral."""
-    system, problem = mid_stroke.solution.system, mid_stroke.solution.problem
+    system, problem = in_triangles.triangles, in_triangles.problem
 
     def energy(x: np.ndarray) -> float:
         total = 0.5 * x @ system.pattern.multiply(system.linear, x) - system.load @ x
@@ -85,16 +84,16 @@ def test_residual_is_the_derivative_of_the_energy(mid_stroke: TubularSolution) -
             total += np.sum(system.iron_weight[part] * curve.energy_density(np.sqrt(squared[part])))
         return float(total)
 
-    x = 0.9 * mid_stroke.solution.psi[system.inner]
+    x = 0.9 * in_triangles.psi[system.inner]
     step = 1e-4
     along = x * np.random.default_rng(2).uniform(0.5, 1.5, x.size)
     slope = (energy(x + step * along) - energy(x - step * along)) / (2 * step)
     assert system.residual(x) @ along == pytest.approx(slope, rel=1e-6)
 
 
-def test_iteration_limit_is_a_value(mid_stroke: TubularSolution) -> None:
+def test_iteration_limit_is_a_value(in_triangles: Solution) -> None:
     """Catches an exception, or a field that pretends: one step from nothing does not do, and says so."""
-    solution = solve(mid_stroke.solution.problem, Settings(max_iterations=1))
+    solution = solve(in_triangles.problem, Settings(max_iterations=1))
     assert not solution.convergence.converged
     assert solution.convergence.status == "iteration limit"
     assert solution.convergence.iterations == 1
@@ -103,23 +102,23 @@ def test_iteration_limit_is_a_value(mid_stroke: TubularSolution) -> None:
     assert np.all(np.isfinite(solution.psi))
 
 
-def test_a_stop_before_the_first_step_is_a_value(mid_stroke: TubularSolution) -> None:
+def test_a_stop_before_the_first_step_is_a_value(in_triangles: Solution) -> None:
     """Catches a factor that is used although none was made: no step allowed, and a start that is the solution."""
-    problem = mid_stroke.solution.problem
+    problem = in_triangles.problem
     none = solve(problem, Settings(max_iterations=0))
     assert none.convergence.status == "iteration limit"
-    again = solve(problem, None, mid_stroke.solution.psi)
+    again = solve(problem, None, in_triangles.psi)
     assert again.convergence.converged
     assert again.convergence.iterations == 0
     assert again.last_factor is None
-    right = np.ones(again.system.inner.size)
-    np.testing.assert_allclose(again.tangent.solve(right), mid_stroke.solution.tangent.solve(right), rtol=1e-9)
+    right = np.ones(again.triangles.inner.size)
+    np.testing.assert_allclose(again.tangent.solve(right), in_triangles.tangent.solve(right), rtol=1e-9)
 
 
 @pytest.mark.filterwarnings("error")
-def test_a_load_that_is_not_a_number_is_a_value(mid_stroke: TubularSolution) -> None:
+def test_a_load_that_is_not_a_number_is_a_value(in_triangles: Solution) -> None:
     """Catches a traceback, a warning or an endless search for a field that does not exist."""
-    problem = mid_stroke.solution.problem
+    problem = in_triangles.problem
     broken = replace(problem, circuits=(replace(problem.circuits[0], current=float("nan")),))
     solution = solve(broken)
     assert not solution.convergence.converged
@@ -128,17 +127,17 @@ def test_a_load_that_is_not_a_number_is_a_value(mid_stroke: TubularSolution) -> 
 
 
 @pytest.mark.filterwarnings("error")
-def test_a_start_that_is_not_a_number_is_a_value(mid_stroke: TubularSolution) -> None:
+def test_a_start_that_is_not_a_number_is_a_value(in_triangles: Solution) -> None:
     """Catches a cast of NaN to a table's index in the iron."""
-    start = np.full(mid_stroke.solution.psi.size, np.nan)
-    solution = solve(mid_stroke.solution.problem, None, start)
+    start = np.full(in_triangles.psi.size, np.nan)
+    solution = solve(in_triangles.problem, None, start)
     assert solution.convergence.status == "stalled"
 
 
 @pytest.mark.parametrize("method", ["banded", "superlu"])
-def test_a_singular_matrix_is_a_value(mid_stroke: TubularSolution, method: str) -> None:
+def test_a_singular_matrix_is_a_value(in_triangles: Solution, method: str) -> None:
     """Catches a traceback from the factorisation: a material of no reluctivity leaves the field free."""
-    problem = mid_stroke.solution.problem
+    problem = in_triangles.problem
     free = replace(problem, materials=tuple(MagneticMaterial(0.0) for _ in problem.materials))
     loaded = replace(free, circuits=(replace(problem.circuits[0], current=1.0),))
     solution = solve(loaded, Settings(method="superlu" if method == "superlu" else "banded"))
@@ -172,21 +171,21 @@ def test_failures_without_a_load_are_values_too() -> None:
     assert factor is None
 
 
-def test_a_large_current_saturates_and_converges(mid_stroke: TubularSolution) -> None:
+def test_a_large_current_saturates_and_converges(in_triangles: Solution) -> None:
     """Catches overshoot: 10,000 A in one phase, three orders beyond the winding's, within 60 steps."""
-    problem = mid_stroke.solution.problem
+    problem = in_triangles.problem
     first = problem.circuits[0]
     mad = replace(problem, circuits=(Circuit(first.name, first.density, 1e4), *problem.circuits[1:]))
     solution = solve(mad)
     assert solution.convergence.converged, solution.convergence.sentence()
 
 
-def test_assembly_is_the_sum_of_all_elements(mid_stroke: TubularSolution) -> None:
+def test_assembly_is_the_sum_of_all_elements(in_triangles: Solution) -> None:
     """Catches an iron element that is lost or counted twice when only the iron is assembled anew."""
     from fluxbore.fem.element import stiffness
 
-    system: System = mid_stroke.solution.system
-    problem = mid_stroke.solution.problem
+    system = in_triangles.triangles
+    problem = in_triangles.problem
     # At no field iron is linear: ν(0), no slope.
     nu = np.array(
         [m.reluctivity if m.curve is None else m.curve.reluctivity(np.zeros(1))[0][0] for m in problem.materials]

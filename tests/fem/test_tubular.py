@@ -7,7 +7,6 @@ import pytest
 
 from fluxbore.design.materials import Library, standard
 from fluxbore.design.spec import Spec
-from fluxbore.fem.force import axial_force, axial_force_gradient, incremental_thrust
 from fluxbore.fem.magnetostatics import Solution
 from fluxbore.fem.reluctivity import VACUUM_PERMEABILITY, VACUUM_RELUCTIVITY
 from fluxbore.fem.tubular import (
@@ -72,25 +71,22 @@ def test_force_of_a_polynomial(mid_stroke: TubularSolution) -> None:
     item = with_field(mid_stroke, s * z)
     inner, outer = (r**2 / 2 for r in item.section.force_annulus)
     exact = -2 * np.pi / VACUUM_PERMEABILITY * (outer + inner) / 2 * (z.max() ** 2 - z.min() ** 2) / 2
-    assert axial_force(item.solution, item.section.force_annulus) == pytest.approx(exact, rel=1e-9)
+    assert item.cogging_force() == pytest.approx(exact, rel=1e-9)
 
 
 def test_force_gradient_is_the_derivative(mid_stroke: TubularSolution) -> None:
     """Catches a gradient that is half or twice: the force is quadratic in ψ, so central differences are exact."""
-    shell = mid_stroke.section.force_annulus
     psi = mid_stroke.solution.psi
     along = psi * np.random.default_rng(1).uniform(-1, 1, psi.size)
-    ahead, behind = (axial_force(with_field(mid_stroke, psi + sign * along).solution, shell) for sign in (1, -1))
-    assert axial_force_gradient(mid_stroke.solution, shell) @ along == pytest.approx((ahead - behind) / 2, rel=1e-9)
+    ahead, behind = (with_field(mid_stroke, psi + sign * along).cogging_force() for sign in (1, -1))
+    assert mid_stroke.pull @ along == pytest.approx((ahead - behind) / 2, rel=1e-9)
 
 
 def test_incremental_thrust_against_the_forward_solve(mid_stroke: TubularSolution) -> None:
     """Catches an adjoint on the wrong side: one solve per phase and the gradient give the same as one for all."""
-    solution, shell = mid_stroke.solution, mid_stroke.section.force_annulus
-    inner = solution.system.inner
-    gradient = axial_force_gradient(solution, shell)[inner]
-    forward = [gradient @ solution.tangent.solve(c.density[inner]) for c in solution.problem.circuits]
-    assert incremental_thrust(solution, shell) == pytest.approx(forward, rel=1e-8)
+    solution = mid_stroke.solution
+    forward = [mid_stroke.pull @ solution.response(circuit.density) for circuit in solution.problem.circuits]
+    assert mid_stroke.thrust_constants() == pytest.approx(forward, rel=1e-8)
 
 
 def test_materials_as_the_solver_sees_them(spec: Spec) -> None:

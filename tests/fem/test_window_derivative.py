@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 from small_motor import difference, small_section, solved, with_lines
 
-from fluxbore.fem.linkage import circuits
+from fluxbore.fem.coil_windows import WindowDerivative, Windows, circuits
 from fluxbore.fem.mapped import MappedMesh
-from fluxbore.fem.window_derivative import WindowDerivative, Windows
 from fluxbore.geometry.cross_section import CoilWindow
 
 Array = np.ndarray
@@ -36,7 +35,7 @@ def fields(grid: MappedMesh) -> dict[str, Array]:
 
 def linked(grid: MappedMesh, coils: tuple[CoilWindow, ...], fields: dict[str, Array]) -> Array:
     """(2,) Σ density · v."""
-    return np.sum([circuit.density @ fields[circuit.name] for circuit in circuits(grid.mesh, coils)], axis=0)
+    return np.sum([circuit.density @ fields[circuit.name] for circuit in circuits(grid, coils)], axis=0)
 
 
 @pytest.fixture(scope="module")
@@ -74,18 +73,19 @@ def test_by_mesh_lines(
 def test_by_windows(
     grid: MappedMesh, coils: tuple[CoilWindow, ...], fields: dict[str, Array], found: WindowDerivative
 ) -> None:
-    """Catches a stretch whose turns per area stay: both ends of every coil in z."""
+    """Catches a stretch whose turns per area stay: both ends of every coil in z, and its outer radius; the inner one
+    is a mesh line, on which ∂v/∂r jumps."""
     for k, coil in enumerate(coils):
-        for side in range(2):
+        for side in (1, 2, 3):
 
             def at(step: float, k: int = k, coil: CoilWindow = coil, side: int = side) -> Array:
-                z = (coil.z[0] + step * (side == 0), coil.z[1] + step * (side == 1))
-                return linked(grid, (*coils[:k], replace(coil, z=z), *coils[k + 1 :]), fields)
+                limits = [*coil.r, *coil.z]
+                limits[side] += step
+                moved = replace(coil, r=(limits[0], limits[1]), z=(limits[2], limits[3]))
+                return linked(grid, (*coils[:k], moved, *coils[k + 1 :]), fields)
 
             expected = difference(at, 1e-6)
-            assert found.windows[k, 2 + side] == pytest.approx(
-                expected, rel=1e-6, abs=1e-7 * np.abs(found.windows).max()
-            )
+            assert found.windows[k, side] == pytest.approx(expected, rel=1e-6, abs=1e-7 * np.abs(found.windows).max())
 
 
 def test_by_turns(

@@ -5,7 +5,7 @@ import weakref
 
 from short_motor import short_spec
 
-from fluxbore.fem.factors import BandedCholesky
+from fluxbore.fem.cell_band import CellFactor
 from fluxbore.optimize import hybrid_figures
 from fluxbore.optimize.evaluate import evaluate
 from fluxbore.optimize.hybrid_field import Field, solve_field
@@ -16,19 +16,19 @@ KEYS = ("actuator.mover.ring_width", "actuator.back_yoke.thickness")
 def test_fields_and_factors_do_not_outlive_their_evaluation(monkeypatch):
     """Catches reference cycles and caches that keep the field of every design that a search has seen."""
     alive: list[weakref.ref[object]] = []
-    factorise = BandedCholesky.__init__
+    factorise = CellFactor.__init__
 
     def noted_field(spec) -> Field:
         field = solve_field(spec)
         alive.extend(weakref.ref(item) for item in (*field.window, *field.peaks))
         return field
 
-    def noted_factor(self, pattern, values) -> None:
-        factorise(self, pattern, values)
+    def noted_factor(self, *arguments) -> None:
+        factorise(self, *arguments)
         alive.append(weakref.ref(self))
 
     monkeypatch.setattr(hybrid_figures, "solve_field", noted_field)
-    monkeypatch.setattr(BandedCholesky, "__init__", noted_factor)
+    monkeypatch.setattr(CellFactor, "__init__", noted_factor)
     spec = short_spec()
     gc.disable()
     try:

@@ -9,7 +9,8 @@ import pytest
 
 from fluxbore.design.hybrid_values import positions
 from fluxbore.design.spec import Spec, load
-from fluxbore.fem.linkage import circuits
+from fluxbore.fem.cell_system import CellSystem
+from fluxbore.fem.coil_windows import circuits
 from fluxbore.fem.magnetostatics import Solution, solve
 from fluxbore.fem.mapped import MappedMesh, Subdivision, mapped_mesh
 from fluxbore.fem.problem import MagneticMaterial, Problem
@@ -59,13 +60,14 @@ def free_space() -> Callable[..., Free]:
         section = CrossSection(r_points, z_points, regions, cell_regions, tuple(coils), tuple(rectangles), (0.0, 0.0))
         grid = mapped_mesh(section, subdivisions, subdivisions, refinement)
         materials = (MagneticMaterial(), *(part[0] for part in parts))
-        loaded = circuits(grid.mesh, coils)
+        loaded = circuits(grid, coils)
         if currents:
             loaded = tuple(
                 type(circuit)(circuit.name, circuit.density, current)
                 for circuit, current in zip(loaded, currents, strict=True)
             )
-        return Free(grid, solve(Problem(grid.mesh, materials, loaded)))
+        problem = Problem(grid.mesh, materials, loaded)
+        return Free(grid, solve(problem, system=CellSystem(problem, grid)))
 
     return build
 

@@ -3,64 +3,61 @@
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
+import cell_energy
 import numpy as np
 import pytest
 
 from fluxbore.design.spec import Spec
-from fluxbore.fem.force import axial_force, incremental_thrust
-from fluxbore.fem.linkage import flux_linkages
-from fluxbore.fem.magnetostatics import Settings, Solution, System, solve
-from fluxbore.fem.mesh import Mesh
-from fluxbore.fem.problem import Problem
-from fluxbore.fem.tubular import TubularSolution, solve_positions
+from fluxbore.fem.cell_system import CellSystem
+from fluxbore.fem.magnetostatics import Settings
+from fluxbore.fem.tubular import TubularSolution, solve_currents, solve_grid, solve_positions
 from fluxbore.geometry.hybrid import cross_section
 
+MU_0 = 4e-7 * np.pi
 Motor = Callable[..., list[TubularSolution]]
 
 
-def energy(solution: Solution, mesh: Mesh | None = None) -> float:
-    """∫ w(B) dV − (loads · ψ) (J), which the field makes stationary; ψ kept on other nodes where ``mesh`` is given."""
-    problem = solution.problem if mesh is None else replace(solution.problem, mesh=mesh)
-    system = solution.system if mesh is None else System(problem)
-    x = solution.psi[system.inner]
-    total = float(0.5 * x @ system.pattern.multiply(system.linear, x) - system.load @ x)
-    field = np.einsum("mqkn,mn->mqk", system.iron_curl, system.spread(x)[system.iron_nodes])
-    size = np.sqrt(np.sum(field**2, axis=-1))
-    for index, part in system.iron:
-        curve = problem.materials[index].curve
-        assert curve is not None
-        total += float(np.sum(system.iron_weight[part] * curve.energy_density(size[part])))
-    return 2 * np.pi * total
+def energy(item: TubularSolution) -> float:
+    """∫ w(B) dV − (loads · ψ) (J), which the field makes stationary."""
+    system = item.solution.system
+    assert isinstance(system, CellSystem)
+    return 2 * np.pi * cell_energy.energy(system, item.solution.psi)
 
 
-def with_currents(item: TubularSolution, currents: Sequence[float]) -> Solution:
+def with_currents(item: TubularSolution, currents: Sequence[float]) -> TubularSolution:
     """The same position with currents (A) in the phases."""
-    problem = item.solution.problem
-    loaded = tuple(replace(c, current=i) for c, i in zip(problem.circuits, currents, strict=True))
-    solution = solve(replace(problem, circuits=loaded), Settings(tolerance=1e-10), item.solution.psi)
-    assert solution.convergence.converged
-    return solution
+    phases = [circuit.name for circuit in item.solution.problem.circuits]
+    loaded = dict(zip(phases, currents, strict=True))
+    found = solve_currents(item.section, item.position, loaded, Settings(tolerance=1e-10), near=item)
+    assert found.convergence.converged
+    return found
 
 
 def test_stress_tensor_is_the_derivative_of_the_discrete_energy(motor: Motor) -> None:
     """Catches any error of the stress integral: nodes inside the shell shifted, ψ kept, the energy's own difference.
 
-    The field makes the energy stationary, so ψ need not be solved again; to 1e-6 of what the energy can resolve.
+    The field makes the energy stationary, so ψ need not be solved again. What is inside of the shell is shifted as a
+    whole, and within it the cells are sheared: ∂ψ/∂s falls by the shear times ∂ψ/∂z.
     """
     (item,) = motor([0.0885])
-    mesh = item.solution.problem.mesh
+    cells = item.cells
     inner, outer = (r**2 / 2 for r in item.section.force_annulus)
-    weight = np.clip((outer - mesh.nodes[:, 0]) / (outer - inner), 0.0, 1.0)
+    line = np.arange(cells.region.size) % cells.shape[1]
+    shell = (line >= item.grid.line(item.section.force_annulus[0])) & (
+        line < item.grid.line(item.section.force_annulus[1])
+    )
+    assert np.sum(cells.weight[shell]) == pytest.approx((outer - inner) * np.ptp(item.grid.z_lines))
+    across, along = cells.fields(item.solution.psi)
+    rise = along / cells.inverse_radius
 
-    def shifted(by: float) -> Mesh:
-        nodes = mesh.nodes.copy()
-        nodes[:, 1] += by * weight
-        return replace(mesh, nodes=nodes)
+    def sheared(by: float) -> float:
+        b_z = across + by / (outer - inner) * rise
+        return float(np.pi / MU_0 * np.sum((cells.weight * (b_z**2 + along**2))[shell]))
 
     step = 2e-6
-    force = -(energy(item.solution, shifted(step)) - energy(item.solution, shifted(-step))) / (2 * step)
+    force = -(sheared(step) - sheared(-step)) / (2 * step)
     assert abs(force) > 0.05
-    assert item.cogging_force() == pytest.approx(force, rel=1e-4)
+    assert item.cogging_force() == pytest.approx(force, rel=1e-6)
 
 
 def test_thrust_is_the_change_of_energy_with_position(motor: Motor) -> None:
@@ -92,7 +89,7 @@ def test_incremental_thrust_is_the_force_of_a_small_current(motor: Motor) -> Non
     thrust = item.thrust_constants()
     for phase in range(3):
         drive = 0.1 * np.eye(3)[phase]
-        forces = [axial_force(with_currents(item, sign * drive), item.section.force_annulus) for sign in (1, -1)]
+        forces = [with_currents(item, sign * drive).cogging_force() for sign in (1, -1)]
         assert (forces[0] - forces[1]) / 0.2 == pytest.approx(thrust[phase], abs=2e-6 * np.abs(thrust).max())
 
 
@@ -101,12 +98,10 @@ def test_incremental_thrust_under_load_is_the_slope_of_the_force(motor: Motor) -
     (item,) = motor([0.0262])
     drive = np.array([20.0, -10.0, -10.0])
     loaded = with_currents(item, drive)
-    shell = item.section.force_annulus
-    here = incremental_thrust(loaded, shell)
+    here = loaded.thrust_constants()
     nudge = np.array([0.05, 0.0, 0.0])
-    slope = (
-        axial_force(with_currents(item, drive + nudge), shell) - axial_force(with_currents(item, drive - nudge), shell)
-    ) / 0.1
+    ahead, behind = (with_currents(item, drive + sign * nudge).cogging_force() for sign in (1, -1))
+    slope = (ahead - behind) / 0.1
     assert here[0] == pytest.approx(slope, rel=1e-4)
     assert abs(here[0] - item.thrust_constants()[0]) > 1e-4 * abs(here[0])
 
@@ -115,13 +110,12 @@ def test_phases_couple_equally_both_ways(motor: Motor) -> None:
     """Catches an inductance matrix that is not symmetric: incremental, in the saturated yoke, with iron."""
     (item,) = motor([0.0262])
     solution = item.solution
-    inner = solution.system.inner
-    loads = np.array([circuit.density[inner] for circuit in solution.problem.circuits])
-    inductance = 2 * np.pi * loads @ np.array([solution.tangent.solve(load) for load in loads]).T
+    loads = np.array([circuit.density for circuit in solution.problem.circuits])
+    inductance = 2 * np.pi * loads @ np.array([solution.response(load) for load in loads]).T
     np.testing.assert_allclose(inductance, inductance.T, rtol=1e-8)
     assert np.all(np.linalg.eigvalsh(inductance) > 0)
     drive = np.array([0.1, 0.0, 0.0])
-    change = (flux_linkages(with_currents(item, drive)) - flux_linkages(with_currents(item, -drive))) / 0.2
+    change = (with_currents(item, drive).flux_linkages() - with_currents(item, -drive).flux_linkages()) / 0.2
     np.testing.assert_allclose(change, inductance[:, 0], rtol=1e-4)
 
 
@@ -150,7 +144,7 @@ def test_cogging_by_stress_and_by_energy(motor: Motor) -> None:
     """Catches a cogging force of another size: a mover that leaves the yoke is pulled back, both routes alike."""
     step, z = 2e-4, -0.045
     behind, here, ahead = motor([z - step, z, z + step])
-    by_energy = -(energy(ahead.solution) - energy(behind.solution)) / (2 * step)
+    by_energy = -(energy(ahead) - energy(behind)) / (2 * step)
     assert abs(by_energy) > 0.5
     assert here.cogging_force() == pytest.approx(by_energy, abs=0.15)
 
@@ -159,9 +153,9 @@ def test_no_magnets_no_current_no_force(motor: Motor) -> None:
     """Catches a force from nothing, and a division by the load."""
     (item,) = motor([0.0262])
     problem = item.solution.problem
-    bare = Problem(problem.mesh, tuple(replace(m, coercivity=(0.0, 0.0)) for m in problem.materials), problem.circuits)
-    solution = solve(bare)
-    assert solution.convergence.converged
-    assert axial_force(solution, item.section.force_annulus) == 0.0
-    assert incremental_thrust(solution, item.section.force_annulus) == pytest.approx(np.zeros(3))
-    assert flux_linkages(solution) == pytest.approx(np.zeros(3))
+    materials = tuple(replace(material, coercivity=(0.0, 0.0)) for material in problem.materials)
+    bare = replace(item, solution=solve_grid(item.section, item.grid, materials))
+    assert bare.convergence.converged
+    assert bare.cogging_force() == 0.0
+    assert bare.thrust_constants() == pytest.approx(np.zeros(3))
+    assert bare.flux_linkages() == pytest.approx(np.zeros(3))

@@ -1,4 +1,4 @@
-"""Axial force by the stress tensor, in its domain form over a cylinder shell of air."""
+"""Axial force by the stress tensor on any mesh of triangles, in its domain form over a cylinder shell of air."""
 
 from __future__ import annotations
 
@@ -54,24 +54,3 @@ def axial_force_gradient(solution: Solution, annulus: tuple[float, float]) -> Fl
 def axial_force(solution: Solution, annulus: tuple[float, float]) -> float:
     """Axial force (N) on everything inside the annulus; see `axial_force_gradient`."""
     return float(axial_force_gradient(solution, annulus) @ solution.psi / 2)
-
-
-def thrust_response(solution: Solution, annulus: tuple[float, float], gradient: Floats | None = None) -> Floats:
-    """(n,) y with K_T y = ∂F/∂ψ at the solution's state: one back-substitution serves all circuits' constants.
-
-    gradient : ∂F/∂ψ, where it is known.
-    """
-    pull = axial_force_gradient(solution, annulus) if gradient is None else gradient
-    found = np.zeros(solution.psi.size)
-    inner = solution.system.inner
-    found[inner] = solution.tangent.solve(solution.system.topology.gather(pull))
-    return found
-
-
-def incremental_thrust(solution: Solution, annulus: tuple[float, float], response: Floats | None = None) -> Floats:
-    """(k,) change of the axial force per ampere in each of the problem's circuits (N/A), at the solution's state.
-
-    With K y = ∂F/∂ψ, each circuit's constant is y · (its load per ampere). response : y, where it is known.
-    """
-    y = thrust_response(solution, annulus) if response is None else response
-    return np.array([y @ circuit.density for circuit in solution.problem.circuits])
