@@ -18,7 +18,7 @@ from fluxbore.fem.factors import Band
 from fluxbore.fem.mesh import Floats, Ints, Topology
 from fluxbore.fem.tensor_product import square
 
-KEPT_ENTRIES = 4
+KEPT_ENTRIES = 8
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -57,24 +57,24 @@ class Places:
         self._entries: dict[bytes, Entries] = {}
 
     def entries(self, chosen: Ints) -> Entries:
-        """How some cells' matrices are added to a band; the last few are kept: designs of a topology ask alike."""
-        code = chosen.tobytes()
+        """How some cells' matrices are added to a band."""
+        return self.entries_of(self.edge[chosen])
+
+    def entries_of(self, nodes: Ints) -> Entries:
+        """How matrices of some nodes (m, e) are added; the last few are kept, for a topology's designs ask alike."""
+        code = nodes.tobytes()
         if code not in self._entries:
             if len(self._entries) == KEPT_ENTRIES:
                 del self._entries[next(iter(self._entries))]
-            self._entries[code] = self._entries_of(self.edge[chosen])
+            self._entries[code] = self._found(nodes)
         return self._entries[code]
 
-    def _entries_of(self, nodes: Ints) -> Entries:
+    def _found(self, nodes: Ints) -> Entries:
         unknown = self._number[nodes]
         row, column = np.repeat(unknown, nodes.shape[1], axis=1).ravel(), np.tile(unknown, (1, nodes.shape[1])).ravel()
         real = np.flatnonzero((column >= 0) & (row >= column))
         target = column[real] * (self.bandwidth + 1) + row[real] - column[real]
         return Entries(real, *np.unique(target, return_inverse=True))
-
-    def add_edges(self, band: Any, nodes: Ints, matrices: Floats) -> None:
-        """To a band in place, matrices (k, order + 1, order + 1) of single edges with these nodes."""
-        self._entries_of(nodes).add(band, matrices)
 
     def empty_band(self, precision: Precision) -> Any:
         """(k, bandwidth + 1) for the lower triangle, by columns from the diagonal down."""

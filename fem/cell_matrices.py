@@ -143,13 +143,10 @@ def linear_condensed(
     """
     shape = cells.square
     order, e = shape.order, shape.edge
-    column = chosen % cells.shape[1]
     of_columns = _columns(order, cells.grid.r_nodes[::order].tobytes())
-    aspect = cells.height[chosen, 0] / cells.width[chosen, 0]
-    # Cells of one kind of rows, such as magnets', are alike.
-    kinds = np.column_stack((column, _rounded(nu_z * aspect), _rounded(nu_r / aspect)))
-    _, first, kind = np.unique(kinds, axis=0, return_index=True, return_inverse=True)
-    column, aspect = column[first], aspect[first]
+    first, kind = _kinds(cells, chosen, nu_r, nu_z)
+    column = chosen[first] % cells.shape[1]
+    aspect = cells.height[chosen[first], 0] / cells.width[chosen[first], 0]
     a, b = (nu_z[first] * aspect)[:, None, None], (nu_r[first] / aspect)[:, None, None]
     whole_a, whole_b = _across(order), of_columns.along[column]
     modes, rates = of_columns.modes[column], a + b * of_columns.rates[column][:, None, :]
@@ -159,11 +156,20 @@ def linear_condensed(
     across = a * whole_a[e:, :e] + b * whole_b[:, e:, :e]
     coupling = inverse @ across
     edge = a * whole_a[:e, :e] + b * whole_b[:, :e, :e] - across.transpose(0, 2, 1) @ coupling
-    kind = kind.ravel()
     return Condensed(*(part.astype(precision, copy=False)[kind] for part in (edge, inverse, coupling)))
 
 
-def _rounded(values: Floats) -> Floats:
-    """To 13 digits: what differs by less differs by rounding."""
-    exponent = np.frexp(values)[1]
-    return np.asarray(np.ldexp(np.rint(np.ldexp(values, 43 - exponent)), exponent - 43))
+def _kinds(cells: Cells, chosen: Ints, nu_r: Floats, nu_z: Floats) -> tuple[Ints, Ints]:
+    """The first cell of each kind, and the kind of each of the chosen: many rows, such as magnets', are of one height.
+
+    Heights that differ by less than a few parts in 10¹³ differ by rounding.
+    """
+    columns = cells.shape[1]
+    heights = cells.height[::columns, 0]
+    exponent = np.frexp(heights)[1]
+    _, of_row = np.unique(np.ldexp(np.rint(np.ldexp(heights, 43 - exponent)), exponent - 43), return_inverse=True)
+    _, of_r = np.unique(nu_r, return_inverse=True)
+    _, of_z = np.unique(nu_z, return_inverse=True)
+    code = ((of_row.ravel()[chosen // columns] * columns + chosen % columns) * chosen.size + of_r) * chosen.size + of_z
+    _, first, kind = np.unique(code, return_index=True, return_inverse=True)
+    return first, kind.ravel()

@@ -97,7 +97,7 @@ class CellSystem(Kernels):
             band = self._where.empty_band(precision)
             self._where.entries(others).add(band, found.edge)
             if self.rim is not None:
-                self._where.add_edges(band, self.rim.nodes, self.rim.matrices)
+                self._where.entries_of(self.rim.nodes).add(band, self.rim.matrices)
             self._linear_parts[precision] = found, band
         return self._linear_parts[precision]
 

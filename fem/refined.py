@@ -13,10 +13,10 @@ import numpy as np
 from fluxbore.fem.factors import Factor
 from fluxbore.fem.mesh import Floats
 
-TOLERANCE = 1e-11
+TOLERANCE = 1e-10
 """Residual of a solution, relative to the right side."""
 
-ROUNDING = 1e-10
+ROUNDING = 1e-9
 """Residual that may be left where sweeps gain no more."""
 
 MOST_SWEEPS = 6

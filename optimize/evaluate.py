@@ -4,18 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from importlib import import_module
+from typing import Any
 
 from fluxbore.design.errors import DesignError, MaterialError, SpecError
 from fluxbore.design.spec import Spec
-from fluxbore.optimize import (
-    coils_figures,
-    hybrid_figures,
-    hybrid_gaps,
-    hydrostatic_figures,
-    hydrostatic_gaps,
-    lead_screw_figures,
-    lead_screw_gaps,
-)
 from fluxbore.optimize.evaluation import FAILED, INVALID, Evaluation, Fidelity, failure
 
 
@@ -33,13 +26,26 @@ class Model:
     never: Callable[[Spec, str], str | None] = lambda spec, figure: None
 
 
+def _of(module: str, name: str) -> Callable[..., Any]:
+    """A function of a module of this room, which is loaded when it is called: a process needs one kind's alone."""
+
+    def call(*arguments: Any) -> Any:
+        return getattr(import_module(f"fluxbore.optimize.{module}"), name)(*arguments)
+
+    return call
+
+
+def _model(room: str, *, gradients: bool = False) -> Model:
+    """By the names that a kind's modules share."""
+    figures = f"{room}_figures"
+    return Model(_of(figures, "by_network"), _of(figures, "by_fem"), gradients, _of(f"{room}_gaps", "never"))
+
+
 MODELS: dict[str, Model] = {
-    "coils": Model(coils_figures.by_network, coils_figures.by_fem, gradients=True),
-    "hybrid": Model(hybrid_figures.by_network, hybrid_figures.by_fem, gradients=True, never=hybrid_gaps.never),
-    "hydrostatic": Model(hydrostatic_figures.by_network, hydrostatic_figures.by_fem, never=hydrostatic_gaps.never),
-    "lead-screw": Model(
-        lead_screw_figures.by_network, lead_screw_figures.by_fem, gradients=True, never=lead_screw_gaps.never
-    ),
+    "coils": Model(_of("coils_figures", "by_network"), _of("coils_figures", "by_fem"), gradients=True),
+    "hybrid": _model("hybrid", gradients=True),
+    "hydrostatic": _model("hydrostatic"),
+    "lead-screw": _model("lead_screw", gradients=True),
 }
 """The model of every kind of actuator, by the kind's name."""
 

@@ -8,7 +8,7 @@ from typing import Literal
 from fluxbore.design.errors import OutputError
 from fluxbore.optimize import parquet
 from fluxbore.optimize.folder import Folder
-from fluxbore.optimize.simulation_table import HEAD, TRACES
+from fluxbore.optimize.simulation_files import HEAD, TRACES
 from fluxbore.optimize.table import FILE_NAME
 
 Tables = Literal["study", "simulation"]

@@ -15,14 +15,10 @@ import numpy as np
 from fluxbore.design.dynamics.simulation import Simulation, Trace
 from fluxbore.optimize.benchmark import DesignRun
 from fluxbore.optimize.parquet import load_pyarrow
+from fluxbore.optimize.simulation_files import HEAD, TRACES
 from fluxbore.optimize.table import FILE_NAME
 
 __all__ = ["FILE_NAME", "HEAD", "TRACES", "read_traces", "traces_table", "trials_table"]
-
-TRACES = "traces.parquet"
-
-HEAD = ("design", "seed")
-"""The columns that every table of trials begins with."""
 
 
 def trials_table(runs: Sequence[DesignRun]) -> str:

@@ -6,7 +6,6 @@ import math
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import bdtr, betaincinv, stdtrit
 
 from fluxbore.optimize.tolerance_result import CONFIDENCE, Interval
 
@@ -19,6 +18,8 @@ def share_interval(count: int, of: int, confidence: float = CONFIDENCE) -> Inter
 
     It covers the true share at least as often as ``confidence`` says, whatever the share is.
     """
+    from scipy.special import betaincinv
+
     tail = (1 - confidence) / 2
     low = float(betaincinv(count, of - count + 1, tail)) if count > 0 else 0.0
     high = float(betaincinv(count + 1, of - count, 1 - tail)) if count < of else 1.0
@@ -59,6 +60,8 @@ def quantile_interval(ordered: Array, share: float, confidence: float = CONFIDEN
     below the quantile with the binomial probability P(at least r of n below), whatever the distribution. An end is
     infinite where there are too few samples for it.
     """
+    from scipy.special import bdtr
+
     count = len(ordered)
     tail = (1 - confidence) / 2
     below = bdtr(np.arange(count + 1, dtype=float), count, share)  # P(at most k samples lie below the quantile)
@@ -74,6 +77,8 @@ def quantile_interval(ordered: Array, share: float, confidence: float = CONFIDEN
 
 def mean_interval(values: Array, confidence: float = CONFIDENCE) -> Interval:
     """The mean with Student's interval; infinite for a single value."""
+    from scipy.special import stdtrit
+
     count = len(values)
     mean = float(np.mean(values))
     if count < 2:

@@ -209,3 +209,11 @@ HYDROSTATIC = KindWords(
         "The input cylinder’s strength, and hose, block, connectors, screw and motor as parts: they are bought.",
     ),
 )
+
+WORDS: dict[str, KindWords] = {
+    "coils": COILS,
+    "hybrid": HYBRID,
+    "hydrostatic": HYDROSTATIC,
+    "lead-screw": LEAD_SCREW,
+}
+"""By the kind's name in the specification."""

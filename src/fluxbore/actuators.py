@@ -16,8 +16,7 @@ from fluxbore.optimize.benchmark import Benchmark
 from fluxbore.optimize.hybrid_contact_force import MCFC
 from fluxbore.optimize.hydrostatic_benchmark import TRACKING
 from fluxbore.optimize.lead_screw_benchmark import FORCE
-from fluxbore.reports import kind_words
-from fluxbore.reports.kind_words import PLAIN, KindWords
+from fluxbore.reports.kind_words import PLAIN, WORDS, KindWords
 
 if TYPE_CHECKING:
     from fluxbore.fem.femm_model import FemmModel
@@ -51,10 +50,10 @@ class Actuator:
 
 
 ACTUATORS: dict[str, Actuator] = {
-    "coils": Actuator(coils.assembly, kind_words.COILS, femm_model=femm_coils.femm_model),
+    "coils": Actuator(coils.assembly, WORDS["coils"], femm_model=femm_coils.femm_model),
     "hybrid": Actuator(
         hybrid_views.assembly,
-        kind_words.HYBRID,
+        WORDS["hybrid"],
         hybrid_views.flux_map,
         hybrid_views.slot_comparison,
         hybrid_views.femm_model,
@@ -62,13 +61,13 @@ ACTUATORS: dict[str, Actuator] = {
     ),
     "hydrostatic": Actuator(
         hydrostatic_views.assembly,
-        kind_words.HYDROSTATIC,
+        WORDS["hydrostatic"],
         benchmarks={TRACKING.name: TRACKING},
         hydraulics=hydrostatic_views.hydraulics,
     ),
     "lead-screw": Actuator(
         lead_screw_views.assembly,
-        kind_words.LEAD_SCREW,
+        WORDS["lead-screw"],
         benchmarks={FORCE.name: FORCE},
         screw=lead_screw_views.screw_content,
     ),

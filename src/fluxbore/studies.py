@@ -3,21 +3,20 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from fluxbore.design.spec import Spec
-from fluxbore.design_result import chosen_spec
 from fluxbore.optimize.evaluation import Fidelity
 from fluxbore.optimize.outcome import Candidate, SearchResult, SweepResult
-from fluxbore.optimize.pareto import run_pareto
-from fluxbore.optimize.pareto_result import ParetoResult
 from fluxbore.optimize.progress import Report
-from fluxbore.optimize.search import check_study, run_search
 from fluxbore.optimize.sweep import recorded_sweeps, run_sweeps
-from fluxbore.optimize.tolerance import run_tolerance
-from fluxbore.optimize.tolerance_result import RobustResult, ToleranceResult
-from fluxbore.optimize.tolerance_robust import run_robust
 from fluxbore.reading import as_spec, need
 from fluxbore.workshop import Workshop, workshop
+
+# Each study brings in libraries of its own, which take as long to load as a design takes to compute.
+if TYPE_CHECKING:
+    from fluxbore.optimize.pareto_result import ParetoResult
+    from fluxbore.optimize.tolerance_result import RobustResult, ToleranceResult
 
 
 def sweep(
@@ -61,6 +60,9 @@ def optimize(
     folder : gets ``design.toml``, ``results.csv``, ``results.parquet`` and the journal; the others as for `sweep`.
     Raises SpecError where the study has no objective or no variables.
     """
+    from fluxbore.design_result import chosen_spec
+    from fluxbore.optimize.search import run_search
+
     spec = as_spec(spec)
     _need_search(spec, "a search")
     with workshop(spec, folder, workers, scheduler, time_limit, force) as shop:
@@ -86,6 +88,8 @@ def pareto(
     folder : gets ``front.csv``, ``results.csv`` and ``results.parquet`` with every design that was evaluated, and the
     journal; the others as for `sweep`. Raises SpecError where the study asks for no front.
     """
+    from fluxbore.optimize.pareto import run_pareto
+
     spec = as_spec(spec)
     _need_search(spec, "a front")
     need(spec.study.pareto, "study.pareto", "a front")
@@ -112,6 +116,8 @@ def tolerance(
     folder : gets ``tolerance.csv`` and the journal; the others as for `sweep`. Raises SpecError where the study has no
     production; DesignError where the design has no figures.
     """
+    from fluxbore.optimize.tolerance import run_tolerance
+
     spec = as_spec(spec)
     need(spec.study.production, "study.production", "a tolerance analysis")
     with workshop(spec, folder, workers, scheduler, time_limit, force, tables=None) as shop:
@@ -135,6 +141,9 @@ def robust(
     folder : gets ``design.toml``, ``tolerance.csv``, the tables of results and the journal; the others as for `sweep`.
     Raises SpecError where the study asks for no yield.
     """
+    from fluxbore.design_result import chosen_spec
+    from fluxbore.optimize.tolerance_robust import run_robust
+
     spec = as_spec(spec)
     production = spec.study.production
     need(production is not None and production.target_yield, "study.production.yield", "a search that reaches it")
@@ -152,6 +161,8 @@ def robust(
 
 def _need_search(spec: Spec, what: str) -> None:
     """Refuse a study that nothing can be looked for in, before a folder is touched."""
+    from fluxbore.optimize.search import check_study
+
     need(spec.study.objective is not None, "study.objective", what)
     need(spec.study.variables, "study.variables", what)
     check_study(spec)

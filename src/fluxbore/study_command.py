@@ -82,9 +82,9 @@ def _evaluate(options: argparse.Namespace) -> Answer:
 
 
 def _sweep(options: argparse.Namespace) -> Answer:
-    from fluxbore.api import sweep
     from fluxbore.messages import sweeps_plain, sweeps_text
     from fluxbore.progress_bar import Bar
+    from fluxbore.studies import sweep
 
     spec = read_spec(options)
     with Bar(options.quiet) as bar:
@@ -94,9 +94,9 @@ def _sweep(options: argparse.Namespace) -> Answer:
 
 
 def _optimize(options: argparse.Namespace) -> Answer:
-    from fluxbore.api import optimize
     from fluxbore.progress_bar import Bar
     from fluxbore.search_messages import search_plain, search_text
+    from fluxbore.studies import optimize
 
     spec = read_spec(options)
     with Bar(options.quiet) as bar:
@@ -107,9 +107,9 @@ def _optimize(options: argparse.Namespace) -> Answer:
 
 
 def _pareto(options: argparse.Namespace) -> Answer:
-    from fluxbore.api import pareto
     from fluxbore.pareto_messages import pareto_plain, pareto_text
     from fluxbore.progress_bar import Bar
+    from fluxbore.studies import pareto
 
     spec = read_spec(options)
     with Bar(options.quiet) as bar:
@@ -120,8 +120,8 @@ def _pareto(options: argparse.Namespace) -> Answer:
 
 
 def _tolerance(options: argparse.Namespace) -> Answer:
-    from fluxbore.api import tolerance
     from fluxbore.progress_bar import Bar
+    from fluxbore.studies import tolerance
     from fluxbore.tolerance_messages import tolerance_plain, tolerance_text
 
     spec = read_spec(options)
@@ -137,9 +137,9 @@ def _tolerance(options: argparse.Namespace) -> Answer:
 
 
 def _robust(options: argparse.Namespace) -> Answer:
-    from fluxbore.api import robust
     from fluxbore.progress_bar import Bar
     from fluxbore.search_messages import robust_design_text
+    from fluxbore.studies import robust
     from fluxbore.tolerance_messages import robust_plain, robust_text
 
     spec = read_spec(options)

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from fluxbore.actuators import actuator_of
 from fluxbore.design.keys import Key, Value
 from fluxbore.design.performance import FIGURES, show_figure
 from fluxbore.design.rates import measure_of_key
 from fluxbore.design.spec import KINDS, Spec
 from fluxbore.design.study import Tolerance
 from fluxbore.optimize.noise import clear_value
+from fluxbore.reports.kind_words import WORDS
 
 
 def route(spec: Spec, fidelity: str) -> str:
     """What computed the figures, in words."""
-    words = actuator_of(spec).words
+    words = WORDS[spec.kind.name]
     return (words.network or "the magnetic network") if fidelity == "network" else words.route
 
 
