@@ -5,7 +5,7 @@ The nodes that are left are numbered as in the lattice, along r first: the domai
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
@@ -58,15 +58,18 @@ class Places:
 
     def entries(self, chosen: Ints) -> Entries:
         """How some cells' matrices are added to a band."""
-        return self.entries_of(self.edge[chosen])
+        return self._kept(chosen.tobytes(), lambda: self.edge[chosen])
 
     def entries_of(self, nodes: Ints) -> Entries:
-        """How matrices of some nodes (m, e) are added; the last few are kept, for a topology's designs ask alike."""
-        code = nodes.tobytes()
+        """How matrices of some nodes (m, e) are added to a band."""
+        return self._kept(nodes.tobytes(), lambda: nodes)
+
+    def _kept(self, code: bytes, nodes: Callable[[], Ints]) -> Entries:
+        """The last few are kept: a topology's designs ask alike."""
         if code not in self._entries:
             if len(self._entries) == KEPT_ENTRIES:
                 del self._entries[next(iter(self._entries))]
-            self._entries[code] = self._found(nodes)
+            self._entries[code] = self._found(nodes())
         return self._entries[code]
 
     def _found(self, nodes: Ints) -> Entries:

@@ -52,16 +52,19 @@ def inverted(matrices: Any) -> Any:
     """
     # Matrices last: each operation is on long rows.
     a = np.ascontiguousarray(matrices.transpose(1, 2, 0))
-    for k in range(a.shape[0]):
-        pivot = a[k, k].copy()
-        if not np.all(pivot > 0):
-            raise SingularMatrixError("the matrix is not positive definite inside of a cell")
-        row = a[k] / pivot
-        column = a[:, k].copy()
-        a -= column[:, None] * row
-        a[k] = row
-        a[:, k] = -column / pivot
-        a[k, k] = 1 / pivot
+    pivots = np.empty_like(a[0])
+    with np.errstate(all="ignore"):  # what is not definite is told by its pivots
+        for k in range(a.shape[0]):
+            pivots[k] = a[k, k]
+            pivot = pivots[k]
+            row = a[k] / pivot
+            column = a[:, k].copy()
+            a -= column[:, None] * row
+            a[k] = row
+            a[:, k] = -column / pivot
+            a[k, k] = 1 / pivot
+    if not np.all(pivots > 0):
+        raise SingularMatrixError("the matrix is not positive definite inside of a cell")
     return np.ascontiguousarray(a.transpose(2, 0, 1))
 
 
@@ -148,14 +151,15 @@ def linear_condensed(
     column = chosen[first] % cells.shape[1]
     aspect = cells.height[chosen[first], 0] / cells.width[chosen[first], 0]
     a, b = (nu_z[first] * aspect)[:, None, None], (nu_r[first] / aspect)[:, None, None]
-    whole_a, whole_b = _across(order), of_columns.along[column]
-    modes, rates = of_columns.modes[column], a + b * of_columns.rates[column][:, None, :]
+    rates = a + b * of_columns.rates[column][:, None, :]
     if not np.all(rates > 0):
         raise SingularMatrixError("the matrix is not positive definite inside of a cell")
+    modes, whole_a, whole_b = of_columns.modes[column], _across(order), of_columns.along[column]
     inverse = (modes / rates) @ modes.transpose(0, 2, 1)
     across = a * whole_a[e:, :e] + b * whole_b[:, e:, :e]
     coupling = inverse @ across
     edge = a * whole_a[:e, :e] + b * whole_b[:, :e, :e] - across.transpose(0, 2, 1) @ coupling
+    # Rounded at the end only: digits lost on the way would cost a sweep of refinement more.
     return Condensed(*(part.astype(precision, copy=False)[kind] for part in (edge, inverse, coupling)))
 
 

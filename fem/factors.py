@@ -10,6 +10,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from fluxbore.fem.lapack import routine
 from fluxbore.fem.pattern import Floats, Pattern
 
 
@@ -32,11 +33,9 @@ class Band:
     """
 
     def __init__(self, band: Floats) -> None:
-        from scipy.linalg import get_lapack_funcs
-
+        self._solver = routine("pbtrs", band.dtype)
         # The transpose is Fortran-ordered, so LAPACK overwrites it without a copy.
-        factor, self._solver = get_lapack_funcs(("pbtrf", "pbtrs"), (band,))
-        self.factor, status = factor(band.T, lower=1, overwrite_ab=1)
+        self.factor, status = routine("pbtrf", band.dtype)(band.T, lower=1, overwrite_ab=1)
         if status != 0:
             raise SingularMatrixError(f"the matrix is not positive definite at unknown {status}")
 
@@ -62,10 +61,8 @@ class BandedCholesky:
     @cached_property
     def _single(self) -> tuple[Any, Any]:
         """The factor in single precision, and its solver."""
-        from scipy.linalg import get_lapack_funcs
-
         band = self._band.factor.astype(np.float32)
-        return band, *get_lapack_funcs(("pbtrs",), (band,))
+        return band, routine("pbtrs", band.dtype)
 
     def solve_roughly(self, right: Floats) -> Floats:
         """`solve` to some five digits, in two thirds of the time or less; right is (n, k)."""

@@ -35,6 +35,17 @@ _START_PATIENCE = 60.0
 """s for a process to come up, which is not the task's time."""
 
 
+PRELOAD = (
+    "fluxbore.fem.lapack",
+    "fluxbore.optimize.evaluate",
+    "fluxbore.optimize.hybrid_figures",
+    "fluxbore.fem.tubular",
+)
+"""What a process that is started early loads meanwhile."""
+
+_early: deque[Worker] = deque()
+
+
 @dataclass(frozen=True, slots=True)
 class Outcome(Generic[R]):
     """What became of the task number ``index``: its value, or in ``failure`` a sentence that says why there is none."""
@@ -75,6 +86,16 @@ def local_executor(
     if in_process:
         return SerialExecutor()
     return ProcessExecutor(available_cores() if workers is None else workers, time_limit)
+
+
+def start_early(workers: int | None = None) -> None:
+    """Start processes for the local executor to come, while this one still reads what they are to do.
+
+    workers : as for `local_executor`; no more than there are cores. What is not taken ends with the executor, or with
+    this process.
+    """
+    for _ in range(min(workers or available_cores(), available_cores()) - len(_early)):
+        _early.append(start_worker(keep_main=False, preload=PRELOAD))
 
 
 def available_cores() -> int:
@@ -199,7 +220,7 @@ class ProcessExecutor:
             worker.kill()  # died while idle
         else:
             job.deadline += _START_PATIENCE
-            worker = start_worker(keep_main=main)
+            worker = _early.popleft() if _early and not main else start_worker(keep_main=main)
             worker.send(job.message)  # where it is dead already, the wait below finds out
         busy[worker] = job
         if self._abandoned:  # while it was not in the table yet
@@ -259,7 +280,8 @@ class ProcessExecutor:
 
     def close(self) -> None:
         """End the workers; what they compute is abandoned."""
-        idle, self._idle = self._idle, []
+        idle, self._idle = [*self._idle, *_early], []
+        _early.clear()
         for worker in idle:
             worker.dismiss()
         for worker in idle:

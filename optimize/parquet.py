@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import io
+import threading
 from collections.abc import Sequence
 from typing import Any
 
@@ -20,6 +22,16 @@ _TEXT = {
     "status": "ok, or in a few words why the design has no figures",
     "reason": "the same in sentences; empty for a sound design",
 }
+
+
+def load_ahead() -> None:
+    """Load pyarrow in the background, while others compute: it takes as long as a design."""
+
+    def load() -> None:
+        with contextlib.suppress(MissingLibraryError):  # whoever writes a table will say so
+            load_pyarrow(FILE_NAME)
+
+    threading.Thread(target=load, daemon=True).start()
 
 
 def results_parquet(spec: Spec, sweeps: Sequence[SweepResult], candidates: Sequence[Candidate] = ()) -> bytes:

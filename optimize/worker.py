@@ -13,7 +13,8 @@ import signal
 import sys
 import threading
 import types
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from importlib import import_module
 from multiprocessing.connection import Connection
 from multiprocessing.context import SpawnProcess
 from typing import Any
@@ -84,15 +85,17 @@ class Worker:
         return f"ended with exit status {code}"
 
 
-def start_worker(*, keep_main: bool) -> Worker:
+def start_worker(*, keep_main: bool, preload: Sequence[str] = ()) -> Worker:
     """A new process, not yet ready.
+
+    preload : modules that it loads before its first task comes.
 
     Spawned, not forked: a fork copies locks that other threads hold. The new process does not import the user's main
     module again unless the function to run is defined there (``keep_main``), so that a plain script needs no guard.
     """
     context = multiprocessing.get_context("spawn")
     ours, theirs = context.Pipe()
-    process = context.Process(target=_work, args=(theirs,), daemon=True)
+    process = context.Process(target=_work, args=(theirs, tuple(preload)), daemon=True)
     main = contextlib.nullcontext() if keep_main else _main_hidden()
     with _starting, _single_threaded(), _interrupts_held_back(), _children_allowed(), main:
         process.start()
@@ -156,7 +159,7 @@ def _main_hidden() -> Iterator[None]:
         sys.modules["__main__"] = main
 
 
-def _work(connection: Connection) -> None:
+def _work(connection: Connection, preload: Sequence[str]) -> None:
     """The worker's life: take a task, answer, until the pipe ends."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # where there was no mask to inherit
     with contextlib.suppress(OSError):
@@ -164,6 +167,9 @@ def _work(connection: Connection) -> None:
     threading.Thread(target=_end_with_parent, daemon=True).start()
     try:
         connection.send_bytes(pickle.dumps((READY, None)))
+        for module in preload:
+            with contextlib.suppress(Exception):  # a task that needs it will say why it cannot be loaded
+                import_module(module)
         while True:
             kind, answer = _answer(connection.recv_bytes())
             connection.send_bytes(answer)

@@ -81,7 +81,16 @@ def _evaluate(options: argparse.Namespace) -> Answer:
     return Answer(status, "\n".join([evaluation_text(spec, evaluation), *slopes]))
 
 
+def _early(options: argparse.Namespace) -> None:
+    """Local processes start while the specification is read, unless a cluster computes."""
+    if options.scheduler is None and (options.workers is None or options.workers > 0):
+        from fluxbore.optimize.executor import start_early
+
+        start_early(options.workers)
+
+
 def _sweep(options: argparse.Namespace) -> Answer:
+    _early(options)
     from fluxbore.messages import sweeps_plain, sweeps_text
     from fluxbore.progress_bar import Bar
     from fluxbore.studies import sweep
@@ -94,6 +103,7 @@ def _sweep(options: argparse.Namespace) -> Answer:
 
 
 def _optimize(options: argparse.Namespace) -> Answer:
+    _early(options)
     from fluxbore.progress_bar import Bar
     from fluxbore.search_messages import search_plain, search_text
     from fluxbore.studies import optimize
@@ -107,6 +117,7 @@ def _optimize(options: argparse.Namespace) -> Answer:
 
 
 def _pareto(options: argparse.Namespace) -> Answer:
+    _early(options)
     from fluxbore.pareto_messages import pareto_plain, pareto_text
     from fluxbore.progress_bar import Bar
     from fluxbore.studies import pareto
@@ -120,6 +131,7 @@ def _pareto(options: argparse.Namespace) -> Answer:
 
 
 def _tolerance(options: argparse.Namespace) -> Answer:
+    _early(options)
     from fluxbore.progress_bar import Bar
     from fluxbore.studies import tolerance
     from fluxbore.tolerance_messages import tolerance_plain, tolerance_text
@@ -137,6 +149,7 @@ def _tolerance(options: argparse.Namespace) -> Answer:
 
 
 def _robust(options: argparse.Namespace) -> Answer:
+    _early(options)
     from fluxbore.progress_bar import Bar
     from fluxbore.search_messages import robust_design_text
     from fluxbore.studies import robust
@@ -187,6 +200,7 @@ def _page(options: argparse.Namespace, name: str) -> Path:
 
 
 def _design(options: argparse.Namespace) -> Answer:
+    _early(options)
     from fluxbore.api import design
     from fluxbore.design_messages import design_plain, design_text
     from fluxbore.progress_bar import Bar

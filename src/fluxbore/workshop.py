@@ -101,6 +101,7 @@ def workshop(
         place = stack.enter_context(open_folder(folder, spec, force)) if folder is not None else None
         if place is not None and tables is not None:
             keep_apart(place, tables, force)
+            parquet.load_ahead()
         yield Workshop(place, executor)
 
 
