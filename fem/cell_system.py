@@ -182,16 +182,26 @@ class CellSystem(Kernels):
     def _factor(self, state: _State, precision: Precision) -> Factor:
         """In single precision, in double where the matrix asks for it."""
         try:
-            matrices = cell_matrices(self.cells, self._iron_cells, *self._tangent(state), precision)
-            inside = condensed(self.cells.square, matrices)
-            others, linear_band = self._linear(precision)
-            band = linear_band.copy()
-            self._where.entries(self._iron_cells).add(band, inside.edge)
+            inside, band = self._iron_and_band(state, precision)
+            others, _ = self._linear(precision)
             return CellFactor(self._where, band, ((self._other_cells, others), (self._iron_cells, inside)))
         except SingularMatrixError:
             if precision == np.float64:
                 raise
             return self._factor(state, np.float64)
+
+    def _iron_and_band(self, state: _State, precision: Precision) -> tuple[Condensed, Any]:
+        """The iron's cells condensed, and the band of all cells' edges."""
+        matrices = cell_matrices(self.cells, self._iron_cells, *self._tangent(state), precision)
+        inside = condensed(self.cells.square, matrices)
+        _, linear_band = self._linear(precision)
+        band = linear_band.copy()
+        self._where.entries(self._iron_cells).add(band, inside.edge)
+        return inside, band
+
+    def condensed_band(self, psi: Floats, precision: Precision) -> Any:
+        """(k, bandwidth + 1) the lower triangle of the condensed tangent at ψ, by columns from the diagonal down."""
+        return self._iron_and_band(self._at(psi), precision)[1]
 
     def _plain_factor(self, state: _State) -> Factor:
         """The whole matrix, by general means."""
