@@ -142,9 +142,8 @@ def main() -> None:
         return
     runs = [sweep() for _ in range(1 if arguments.once else 3)]
     seconds = [taken for taken, _ in runs]
-    print(
-        f"33 designs of eight positions in {statistics.median(seconds):.1f} s ({', '.join(f'{s:.1f}' for s in seconds)})"
-    )
+    each = ", ".join(f"{one:.1f}" for one in seconds)
+    print(f"33 designs of eight positions in {statistics.median(seconds):.1f} s ({each})")
     show(runs[-1][1])
 
 
