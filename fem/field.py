@@ -1,4 +1,4 @@
-"""The field where one asks for it: at the mesh's nodes, and as a map for pictures."""
+"""The field where one asks for it: at the mesh's nodes, and what a picture of it is."""
 
 from __future__ import annotations
 
@@ -49,22 +49,3 @@ def nodal_flux_density(solution: Solution, elements: Ints) -> tuple[Ints, Floats
     b_z = np.bincount(place, field[..., 0].ravel()) / count
     b_r = -np.bincount(place, field[..., 1].ravel()) / count
     return unique, np.column_stack((b_r, b_z))
-
-
-def flux_map(solution: Solution) -> FluxMap:
-    """Each quadratic triangle as four linear ones, with |B| at their middles."""
-    mesh = solution.problem.mesh
-    four = np.array([[0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]])
-    middles = CORNERS_AND_MIDDLES[four].mean(axis=1)
-    curl = kernel(mesh, None, middles).curl
-    field = np.einsum("mqkn,mn->mqk", curl, solution.psi[mesh.elements], optimize=True)
-    space = mesh.positions
-    return FluxMap(
-        space[:, 0],
-        space[:, 1],
-        mesh.elements[:, four].reshape(-1, 3),
-        solution.psi,
-        np.sqrt(np.sum(field**2, axis=-1)).ravel(),
-        np.repeat(mesh.region, 4),
-        np.column_stack((-field[..., 1].ravel(), field[..., 0].ravel())),
-    )

@@ -28,7 +28,7 @@ def flux_map(spec: Spec) -> FluxMap | None:
     converges."""
     import numpy as np
 
-    from fluxbore.fem.field import flux_map as field_map
+    from fluxbore.fem.cell_picture import flux_map as field_map
     from fluxbore.fem.field_loads import tubular_loads
     from fluxbore.fem.threads import one_thread
     from fluxbore.optimize.hybrid_field import intrinsic_coercivity
@@ -41,7 +41,7 @@ def flux_map(spec: Spec) -> FluxMap | None:
         solved = solve_window(spec, (position,))[0]
     if not solved.convergence.converged:
         return None
-    field = field_map(solved.solution)
+    field = field_map(solved)
     boxes = [(item.region.name, item.r, item.z) for item in solved.section.rectangles]
     boxes += [(f"coil {coil.circuit}", coil.r, coil.z) for coil in solved.section.coils]
     outlines = tuple((name, np.array([(r[0], z[0]), (r[1], z[0]), (r[1], z[1]), (r[0], z[1])])) for name, r, z in boxes)

@@ -5,7 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fluxbore.fem.field import flux_map, nodal_flux_density
+from fluxbore.fem.cell_picture import flux_map
+from fluxbore.fem.field import nodal_flux_density
 from fluxbore.fem.line_field import along_radius
 from fluxbore.fem.tubular import TubularSolution
 
@@ -56,25 +57,25 @@ def test_sides_of_an_iron_face_differ_as_they_must(mid_stroke: TubularSolution) 
 
 
 def test_flux_map_of_a_polynomial(polynomial: TubularSolution) -> None:
-    """Catches triangles in another order than their values, and a lost region."""
-    picture = flux_map(polynomial.solution)
-    mesh = polynomial.solution.problem.mesh
-    assert picture.triangles.shape == (4 * mesh.elements.shape[0], 3)
-    corners = np.column_stack((picture.r**2 / 2, picture.z))[picture.triangles]
+    """Catches triangles in another order than their values, a hole, and components exchanged or of another sign."""
+    picture = flux_map(polynomial)
+    corners = np.stack((picture.r, picture.z), axis=-1)[picture.triangles]
     one, two = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-    area = np.abs(one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]) / 2
-    s, z = mesh.nodes.T
-    assert area.sum() == pytest.approx(s.max() * (z.max() - z.min()))
-    middle = corners.mean(axis=1)
-    np.testing.assert_allclose(picture.flux_density, np.hypot(5 * np.sqrt(2 * middle[:, 0]), 1 + 10 * middle[:, 1]))
-    assert np.array_equal(picture.region[::4], mesh.region)
-    assert picture.flux is polynomial.solution.psi
-
-
-def test_flux_map_has_both_components(polynomial: TubularSolution) -> None:
-    """Catches components exchanged, of another sign, or of other triangles than their middles."""
-    picture = flux_map(polynomial.solution)
-    s, z = (axis[picture.triangles].mean(axis=1) for axis in (picture.r**2 / 2, picture.z))
-    np.testing.assert_allclose(picture.components[:, 0], -5 * np.sqrt(2 * s), atol=1e-8)
-    np.testing.assert_allclose(picture.components[:, 1], 1 + 10 * z, rtol=1e-6)
+    area = (one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]) / 2
+    assert np.all(area > 0)
+    assert area.sum() == pytest.approx(picture.r.max() * np.ptp(picture.z))
+    r, z = corners.mean(axis=1).T
+    np.testing.assert_allclose(picture.components, np.column_stack((-5 * r, 1 + 10 * z)), atol=1e-8)
     np.testing.assert_allclose(np.hypot(*picture.components.T), picture.flux_density)
+    np.testing.assert_allclose(picture.flux, picture.r**2 / 2 * (1 + 10 * picture.z), atol=1e-12)
+
+
+def test_flux_map_keeps_the_regions(mid_stroke: TubularSolution) -> None:
+    """Catches a triangle across a face, or in its neighbour's colour: each region has its own volume."""
+    picture, cells = flux_map(mid_stroke), mid_stroke.cells
+    s = (picture.r**2 / 2)[picture.triangles]
+    z = picture.z[picture.triangles]
+    area = np.abs((s[:, 1] - s[:, 0]) * (z[:, 2] - z[:, 0]) - (s[:, 2] - s[:, 0]) * (z[:, 1] - z[:, 0])) / 2
+    found = np.bincount(picture.region, area)
+    expected = np.bincount(cells.region, cells.weight.sum(axis=1))
+    assert found == pytest.approx(expected, rel=1e-9)
