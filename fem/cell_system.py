@@ -34,6 +34,9 @@ class _State:
     bent: Floats
 
 
+Linear = Callable[[Precision], tuple[Condensed, Any]]
+
+
 class CellSystem(Kernels):
     """The equations of a problem on a mapped mesh; unknowns are nodal (n,), those of nodes without freedom zero.
 
@@ -60,7 +63,6 @@ class CellSystem(Kernels):
                 load += circuit.current * circuit.density
         self.load = np.where(self._free, load, 0.0)
         self._state: _State | None = None
-        self._linear_parts: dict[Precision, tuple[Condensed, Any]] = {}
 
     def _gather_iron(self) -> None:
         """The iron's cells, grouped by curve; all others."""
@@ -91,15 +93,13 @@ class CellSystem(Kernels):
 
     def _linear(self, precision: Precision) -> tuple[Condensed, Any]:
         """The cells without iron, and the band of their edges and the rim's."""
-        if precision not in self._linear_parts:
-            others = self._other_cells
-            found = linear_condensed(self.cells, others, self._nu_r[others], self._nu_z[others], precision)
-            band = self._where.empty_band(precision)
-            self._where.entries(others).add(band, found.edge)
-            if self.rim is not None:
-                self._where.entries_of(self.rim.nodes).add(band, self.rim.matrices)
-            self._linear_parts[precision] = found, band
-        return self._linear_parts[precision]
+        others = self._other_cells
+        found = linear_condensed(self.cells, others, self._nu_r[others], self._nu_z[others], precision)
+        band = self._where.empty_band(precision)
+        self._where.entries(others).add(band, found.edge)
+        if self.rim is not None:
+            self._where.entries_of(self.rim.nodes).add(band, self.rim.matrices)
+        return found, band
 
     def unknowns(self, psi: Floats | None) -> Floats:
         """Newton's from nodal ψ; all zero without."""
@@ -162,51 +162,69 @@ class CellSystem(Kernels):
 
     def tangents(self, method: Method) -> Callable[[Floats], Factor]:
         """Factorises the residual's derivative at ψ; raises SingularMatrixError."""
-        return lambda psi: self.tangent_at(psi, None, method)
+        linear = self._remembered()
+        return lambda psi: self._tangent(psi, None, method, linear)
 
     def tangent_at(self, psi: Floats, neighbour: Factor | None, method: Method) -> Factor:
         """The residual's derivative at ψ, ready to solve with, by a factor that is near where there is one."""
+        return self._tangent(psi, neighbour, method, self._remembered())
+
+    def _remembered(self) -> Linear:
+        """`_linear`, made once for each precision: as long as Newton's steps need it, for it is half of the memory."""
+        made: dict[Precision, tuple[Condensed, Any]] = {}
+
+        def linear(precision: Precision) -> tuple[Condensed, Any]:
+            if precision not in made:
+                made[precision] = self._linear(precision)
+            return made[precision]
+
+        return linear
+
+    def _tangent(self, psi: Floats, neighbour: Factor | None, method: Method, linear: Linear) -> Factor:
         state = self._at(psi)
         if method == "superlu":
             return self._plain_factor(state)
-        rough = neighbour.factor if isinstance(neighbour, Refined) else self._factor(state, np.float32)
-        return Refined(lambda columns: self._multiplied(state, columns), rough, lambda: self._factor(state, np.float64))
+        rough = neighbour.factor if isinstance(neighbour, Refined) else self._factor(state, np.float32, linear)
+        return Refined(
+            lambda columns: self._multiplied(state, columns),
+            rough,
+            lambda: self._factor(state, np.float64, self._linear),
+        )
 
-    def _tangent(self, state: _State) -> tuple[Floats, Floats, Floats]:
+    def _iron_tensor(self, state: _State) -> tuple[Floats, Floats, Floats]:
         """Of ∫ (ν + 2 dν/d|B|² B⊗B) B(v)·B(w) in the iron, the tensor's parts: along z, mixed, and along r."""
         check_finite(state.nu)
         check_finite(state.bent)
         b_z, b_r = state.b_z[self._iron_cells], state.b_r[self._iron_cells]
         return state.nu + state.bent * b_z**2, state.bent * b_z * b_r, state.nu + state.bent * b_r**2
 
-    def _factor(self, state: _State, precision: Precision) -> Factor:
+    def _factor(self, state: _State, precision: Precision, linear: Linear) -> Factor:
         """In single precision, in double where the matrix asks for it."""
         try:
-            inside, band = self._iron_and_band(state, precision)
-            others, _ = self._linear(precision)
+            inside, band = self._iron_and_band(state, precision, linear)
+            others, _ = linear(precision)
             return CellFactor(self._where, band, ((self._other_cells, others), (self._iron_cells, inside)))
         except SingularMatrixError:
-            if precision == np.float64:
+            if precision is np.float64:
                 raise
-            return self._factor(state, np.float64)
+            return self._factor(state, np.float64, linear)
 
-    def _iron_and_band(self, state: _State, precision: Precision) -> tuple[Condensed, Any]:
+    def _iron_and_band(self, state: _State, precision: Precision, linear: Linear) -> tuple[Condensed, Any]:
         """The iron's cells condensed, and the band of all cells' edges."""
-        matrices = cell_matrices(self.cells, self._iron_cells, *self._tangent(state), precision)
+        matrices = cell_matrices(self.cells, self._iron_cells, *self._iron_tensor(state), precision)
         inside = condensed(self.cells.square, matrices)
-        _, linear_band = self._linear(precision)
-        band = linear_band.copy()
+        band = linear(precision)[1].copy()
         self._where.entries(self._iron_cells).add(band, inside.edge)
         return inside, band
 
     def condensed_band(self, psi: Floats, precision: Precision) -> Any:
         """(k, bandwidth + 1) the lower triangle of the condensed tangent at ψ, by columns from the diagonal down."""
-        return self._iron_and_band(self._at(psi), precision)[1]
+        return self._iron_and_band(self._at(psi), precision, self._linear)[1]
 
     def _plain_factor(self, state: _State) -> Factor:
         """The whole matrix, by general means."""
         across, along, mixed = self._linear_z.copy(), self._linear_r.copy(), np.zeros_like(self._linear_z)
-        across[self._iron_cells], mixed[self._iron_cells], along[self._iron_cells] = self._tangent(state)
+        across[self._iron_cells], mixed[self._iron_cells], along[self._iron_cells] = self._iron_tensor(state)
         whole = cell_matrices(self.cells, np.arange(self.cells.region.size), across, mixed, along)
         return PlainFactor(self.cells.nodes, self._free, whole, self.rim)
 

@@ -14,7 +14,10 @@ from fluxbore.fem.factors import Factor
 from fluxbore.fem.mesh import Floats
 
 TOLERANCE = 1e-10
-"""Residual of a solution, relative to the right side."""
+"""Residual of a solution, relative to the right side, where nothing else is asked for."""
+
+FINEST = 1e-12
+"""What sweeps can reach for sure."""
 
 ROUNDING = 1e-9
 """Residual that may be left where sweeps gain no more."""
@@ -43,7 +46,7 @@ class Refined:
     def within(self, right: Floats, tolerance: float) -> Floats:
         """x with |b − A x| <= tolerance |b| for each right side, or as well as A's exact factor solves it."""
         shaped = right.reshape(right.shape[0], -1)
-        found = None if self._is_exact else self._swept(shaped, max(tolerance, TOLERANCE))
+        found = None if self._is_exact else self._swept(shaped, max(tolerance, FINEST))
         if found is None:
             if not self._is_exact:
                 self.factor, self._is_exact = self._exact(), True

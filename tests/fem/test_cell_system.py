@@ -52,7 +52,7 @@ def test_factors_are_the_tangents(
 ) -> None:
     """Catches a condensed matrix that is another than the product's: A⁻¹ A x = x, as good as the precision allows."""
     psi = mid_stroke.solution.psi
-    factor = system._factor(system._at(psi), precision)
+    factor = system._factor(system._at(psi), precision, system._linear)
     x = psi * np.random.default_rng(3).uniform(-1, 1, psi.size)
     found = factor.solve(system.tangent_product(psi, x[:, None])[:, 0])
     assert np.abs(found - x).max() < (1e-2 if precision == np.float32 else 1e-8) * np.abs(x).max()
