@@ -135,9 +135,9 @@ Nakata and Noda, "Fusion Hybrid Linear Actuator", IEEE/ASME Trans. Mechatronics 
 - "1 A" is the amplitude of a balanced sinusoidal three-phase current on the q axis. The paper does not say so; 8.67 N/A
   rules out an effective value (12.3) and a power-invariant vector (7.1).
 - The steel is taken as 1010, the magnets' recoil permeability as 1.05. The paper gives neither. A permeability of 1
-  moves the force by 1.6 %, the steel's grade by less than 0.3 %.
+  moves the force by 1.5 %, the steel's grade by less than 0.3 %.
 - Fig. 6(b) is computed with the paper's 4.35 turns/mm^2. The study of `examples/ipehla.toml` holds the prototype's own
-  584 turns over its window, 4.345 turns/mm^2, so its sweep of the yoke lies 0.1 % lower (9.822 for 9.833 N/A).
+  584 turns over its window, 4.345 turns/mm^2, so its sweep of the yoke lies 0.1 % lower (9.839 for 9.850 N/A).
 - The back yoke's overhang of 10 mm is taken to be at the cap end and that of 3 mm at the rod end.
 
 ## What the paper says otherwise
