@@ -25,7 +25,6 @@ import numpy as np
 
 from fluxbore.fem.cells import Cells
 from fluxbore.fem.magnetostatics import Solution
-from fluxbore.fem.mapped import MappedMesh
 from fluxbore.fem.mesh import Floats, Ints
 
 
@@ -48,9 +47,9 @@ class Linearisation:
     Materials are linear, of one reluctivity and magnetised along z, or have a curve.
     """
 
-    def __init__(self, solution: Solution, grid: MappedMesh) -> None:
+    def __init__(self, solution: Solution, cells: Cells) -> None:
         self._solution = solution
-        self.cells = Cells(grid)
+        self.cells = cells
         self._b = self.cells.fields(solution.psi)
         self._materials()
 

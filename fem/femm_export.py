@@ -28,7 +28,7 @@ from fluxbore.fem.femm_model import (
 )
 from fluxbore.fem.mapped import Subdivision
 from fluxbore.fem.mesh import Floats, Ints
-from fluxbore.fem.tubular import R_CELLS, Z_CELLS
+from fluxbore.fem.tubular import ORDER, R_CELLS, Z_CELLS
 from fluxbore.geometry.cross_section import Breakpoints, CrossSection, Region
 
 MOVER, STATOR, COILS = 1, 2, 3
@@ -203,10 +203,10 @@ def _size(section: CrossSection, grid: Grid, face: Face) -> float | None:
 
 
 def _steps(points: Breakpoints, cells: Mapping[str, Subdivision], at: Floats) -> list[float]:
-    """Mean side (m) of the elements in each of the intervals that hold these places."""
+    """Mean side (m) in each of the intervals that hold these places, of quadratic elements with the cells' nodes."""
     intervals = np.unique(np.searchsorted(points.values, at) - 1).tolist()
     return [
-        (points.values[k + 1] - points.values[k]) / cells[name].cells
+        (points.values[k + 1] - points.values[k]) / (ORDER // 2 * cells[name].cells)
         for k in intervals
         if (name := points.intervals[k]) in cells
     ]

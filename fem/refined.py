@@ -44,7 +44,8 @@ class Refined:
         return self.within(right, TOLERANCE)
 
     def within(self, right: Floats, tolerance: float) -> Floats:
-        """x with |b − A x| <= tolerance |b| for each right side, or as well as A's exact factor solves it."""
+        """x with |b − A x| <= tolerance |b| for each right side, or as well as A's exact factor solves it; where sweeps
+        gain no more, `ROUNDING` will do."""
         shaped = right.reshape(right.shape[0], -1)
         found = None if self._is_exact else self._swept(shaped, max(tolerance, FINEST))
         if found is None:

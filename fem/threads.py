@@ -16,5 +16,8 @@ def one_thread() -> Iterator[None]:
     """
     from threadpoolctl import threadpool_limits
 
+    from fluxbore.fem.lapack import routine
+
+    routine("pbtrf", "float64")  # what is loaded later than here would not be held back
     with threadpool_limits(limits=1, user_api="blas"):
         yield

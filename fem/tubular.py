@@ -29,9 +29,11 @@ ORDER = 4
 
 R_CELLS = {
     "shaft": Subdivision(1),
+    "soft shaft": Subdivision(2, 3.0, "end"),
     "magnet": Subdivision(3, 10.0),
     "clearance": Subdivision(1),
     "cylinder": Subdivision(1),
+    "soft cylinder": Subdivision(2, 3.0, "start"),
     "winding": Subdivision(1),
     "back yoke": Subdivision(1),
     "near air": Subdivision(1),
@@ -43,14 +45,14 @@ Z_CELLS = {
     "ring": Subdivision(4, 8.0),
     "half ring": Subdivision(3, 8.0),
     "magnet": Subdivision(3, 3.0),
-    "cap end": Subdivision(4, 3.0, "end"),
-    "rod end": Subdivision(4, 3.0, "start"),
+    "cap end": Subdivision(8, 1.4, "end"),
+    "rod end": Subdivision(8, 1.4, "start"),
     "beyond cap end": Subdivision(3, 4.0, "end"),
     "beyond rod end": Subdivision(3, 4.0, "start"),
 }
 """Cells of the default mesh along z, by what lies there. Where iron has a corner they are small and grow away from it
 by much: inside of a cell the field is told by polynomials, which only a corner's field is not like (Babuška and Guo
-1986)."""
+1986). The ends, in which coils have a field of their own, have cells of a coil's length at most or so."""
 
 
 @dataclass(frozen=True, eq=False)

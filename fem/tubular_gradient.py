@@ -40,7 +40,7 @@ class TubularAdjoint:
 
     @cached_property
     def linearisation(self) -> Linearisation:
-        return Linearisation(self.tubular.solution, self.tubular.grid)
+        return Linearisation(self.tubular.solution, self.tubular.cells)
 
     @cached_property
     def _windows(self) -> Windows:

@@ -39,9 +39,12 @@ def cross_section(
         actuator.back_yoke.outer_diameter / 2 + STRAY_DISTANCE,
         actuator.back_yoke.outer_diameter / 2 + STRAY_DISTANCE + far,
     ]
+    magnetic_cylinder = isinstance(materials[actuator.cylinder.material], SoftIron)
+    magnetic_shaft = isinstance(materials[actuator.shaft.material], SoftIron)
+    shaft, cylinder = "soft shaft" if magnetic_shaft else "shaft", "soft cylinder" if magnetic_cylinder else "cylinder"
     r = breakpoints(
         radii,
-        ("shaft", "magnet", "clearance", "cylinder", "winding", "back yoke", "near air", "far air"),
+        (shaft, "magnet", "clearance", cylinder, "winding", "back yoke", "near air", "far air"),
         SMALLEST,
     )
     rectangles = _mover(actuator, position, materials, magnet_temperature)
@@ -52,7 +55,6 @@ def cross_section(
             (actuator.yoke_start, actuator.yoke_end),
         )
     )
-    magnetic_cylinder = isinstance(materials[actuator.cylinder.material], SoftIron)
     if magnetic_cylinder:
         half = actuator.cylinder.length / 2
         rectangles.append(
@@ -62,7 +64,7 @@ def cross_section(
                 (actuator.middle - half, actuator.middle + half),
             )
         )
-    if isinstance(materials[actuator.shaft.material], SoftIron):
+    if magnetic_shaft:
         start = position - actuator.piston.length
         rectangles.append(
             Rectangle(

@@ -74,7 +74,7 @@ def by_fem(spec: Spec, gradient: Sequence[str] = ()) -> Evaluation:
     performance = complete(spec, figures)
     grid = field.middle.grid
     details = {
-        "elements": float(grid.region.size),
+        "cells": float(grid.region.size),
         "unknowns": float(grid.topology.unknowns),
         "newton_iterations": float(sum(item.convergence.iterations for item in (*field.window, *field.peaks))),
         "largest_residual": max(item.convergence.residual for item in (*field.window, *field.peaks)),

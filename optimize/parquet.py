@@ -28,7 +28,7 @@ def load_ahead() -> None:
     """Load pyarrow in the background, while others compute: it takes as long as a design."""
 
     def load() -> None:
-        with contextlib.suppress(MissingLibraryError):  # whoever writes a table will say so
+        with contextlib.suppress(Exception):  # whoever writes a table will say so
             load_pyarrow(FILE_NAME)
 
     threading.Thread(target=load, daemon=True).start()

@@ -27,6 +27,10 @@ MOST_COMBINED = 4
 MOST_ORDERED = 10
 """The same where derivatives put the combinations in order: 1024 are ordered, a few are evaluated."""
 
+MOST_FURTHER = 5000
+"""Combinations of further steps, ordered where a start on the steps is better than all that is expected of the nearest
+and none of these is feasible."""
+
 FURTHER_ROUNDS = 3
 AT_ONCE = 2
 """Further designs: so many rounds of so many side by side."""
@@ -61,9 +65,15 @@ def round_off(
     if best is None or not _stepped(variables):
         return None
     if slopes is not None and slopes.known(best) and len(_stepped(variables)) <= MOST_ORDERED:
-        around = _designs(archive, variables, best, _REACH.get(len(_stepped(variables)), 0), combined=True)
+        count = len(_stepped(variables))
+        reach = _REACH.get(count, 0)
+        around = _designs(archive, variables, best, reach, combined=True)
         for _ in range(1 + FURTHER_ROUNDS):
             expected = _ordered(archive, variables, around, slopes, tolerance)
+            while not expected and (2 * reach + 4) ** count <= MOST_FURTHER and not _any_feasible(archive, around):
+                reach += 1
+                around = _designs(archive, variables, best, reach, combined=True)
+                expected = _ordered(archive, variables, around, slopes, tolerance)
             if not expected or not archive.left:
                 break
             archive.evaluate(expected[: archive.left])
@@ -105,6 +115,12 @@ def _ordered(
         if not archive.knows(points[i]) and (bar is None or (worst <= 0 and loss < bar - tolerance)):
             ranked.append((float(worst), float(loss), i))
     return [designs[i] for _, _, i in sorted(ranked)[:AT_ONCE]]
+
+
+def _any_feasible(archive: Archive, designs: Sequence[dict[str, float]]) -> bool:
+    """Whether any of these is known and feasible."""
+    points = [archive.box.point(values) for values in designs]
+    return any(archive.knows(point) and archive.at(point).feasible for point in points)
 
 
 def predicted(centre: Point, view: View, point: Point) -> list[float]:

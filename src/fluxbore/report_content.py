@@ -118,11 +118,12 @@ def provenance(spec: Spec, evaluation: Evaluation | None, command: Sequence[str]
         except PackageNotFoundError:
             rows[package] = "not installed"
     details = (evaluation.details if evaluation is not None else None) or {}
-    if "elements" in details:
-        rows["mesh"] = (
-            f"{details['elements']:.0f} quadratic triangles, {details['unknowns']:.0f} unknowns, "
-            f"refinement {spec.values['solver.mesh_refinement']}"
-        )
+    for count, words in (("elements", "quadratic triangles"), ("cells", "rectangles of fourth order")):
+        if count in details:
+            rows["mesh"] = (
+                f"{details[count]:.0f} {words}, {details['unknowns']:.0f} unknowns, "
+                f"refinement {spec.values['solver.mesh_refinement']}"
+            )
     if command is not None:
         rows["command"] = "fluxbore " + " ".join(command)
     rows["date"] = datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC")

@@ -63,7 +63,7 @@ def test_the_search_converges_within_the_prototypes_limits(found):
     assert found["algorithm"] == "SLSQP"
     assert found["evaluations"] <= 20
     assert found["optimality"]["residual"] < 1e-3
-    assert found["best"]["objective"] == pytest.approx(10.9717, rel=2e-4)
+    assert found["best"]["objective"] == pytest.approx(10.9493, rel=2e-4)
     assert chosen["feasible"]
     assert chosen["objective"] > 1.25 * start["objective"]
     for name in LIMITED:
@@ -95,7 +95,7 @@ def test_it_is_better_than_one_dimension_at_a_time(found):
     """Catches a comparison with something else than the paper's two maxima in one design, or a page that is wrong."""
     limits = found["start"]["performance"]
     separate = figures({RING: 1.5e-3, YOKE: 0.4e-3})
-    assert separate["force_constant"] == pytest.approx(9.822, abs=2e-3)
+    assert separate["force_constant"] == pytest.approx(9.839, abs=2e-3)
     assert separate["stray_field"] > 20 * limits["stray_field"]
     assert separate["winding_temperature"] > limits["winding_temperature"]
     assert found["chosen"]["objective"] > 1.1 * separate["force_constant"]

@@ -61,7 +61,7 @@ def chatter(_):
     os.write(1, b"more chatter\n")
 
 
-def stillborn(_connection):
+def stillborn(_connection, _preload):
     os._exit(3)
 
 

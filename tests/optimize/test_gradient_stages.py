@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fluxbore.design.study import GRADIENT_ALGORITHMS, Constraint, Variable
-from fluxbore.optimize import nlopt_loop
+from fluxbore.optimize import nlopt_loop, rounding
 from fluxbore.optimize.executor import SerialExecutor, local_executor
 from fluxbore.optimize.journal import Journal
 from fluxbore.optimize.network_start import objective_size
@@ -184,6 +184,17 @@ def test_slanting_steps_are_rounded_by_derivatives():
     assert result.rounded.feasible
     assert result.rounded.objective == pytest.approx(best, rel=1e-9)
     assert len(result.history) <= 60
+
+
+def test_steps_further_away_are_tried_where_the_nearest_miss_a_limit(monkeypatch):
+    """Catches a search that gives its start, which is on the steps, since no step beside the optimum is feasible."""
+    monkeypatch.setattr(rounding, "_REACH", {})
+    variables = (Variable(toy.X, -2.0, 2.0, 0.06), Variable(toy.Y, -2.0, 2.0, 0.07))
+    spec = smooth.study(0.66, 0.7, variables=variables)
+    limits = (*spec.study.constraints, Constraint("total_mass", lower=1.345))
+    result = search(replace(spec, study=replace(spec.study, constraints=limits)))
+    assert result.rounded.feasible
+    assert result.rounded.values == pytest.approx({toy.X: 0.72, toy.Y: 0.63})
 
 
 @pytest.mark.parametrize("algorithm", GRADIENT_ALGORITHMS)
