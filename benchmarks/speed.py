@@ -116,11 +116,13 @@ def gradient_ratio(spec: Spec, runs: int) -> tuple[float, float]:
 
 
 def worker_memory() -> float:
-    """MB that a process needs at most for three designs of eight positions."""
+    """MB that a process needs at most for three designs of eight positions (of Linux)."""
+    # Not resource.getrusage, whose maximum a new process has from the one that started it.
     code = (
-        "import resource, sys; from fluxbore.design.spec import load; from fluxbore.optimize.evaluate import evaluate; "
+        "import sys; from pathlib import Path; from fluxbore.design.spec import load; "
+        "from fluxbore.optimize.evaluate import evaluate; "
         "spec = load(sys.argv[1]); [evaluate(spec) for _ in range(3)]; "
-        "print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)"
+        "text = Path('/proc/self/status').read_text(); print(text.split('VmHWM:')[1].split()[0])"
     )
     run = [sys.executable, "-c", code, str(TOP / "examples" / "ipehla.toml")]
     return float(subprocess.run(run, capture_output=True, text=True, check=True).stdout) / 1024
