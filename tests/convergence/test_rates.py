@@ -5,12 +5,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from nodal_field import nodal_flux_density
 
 from fluxbore.design.spec import load
 from fluxbore.fem.cell_system import CellSystem
 from fluxbore.fem.cells import Cells
 from fluxbore.fem.coil_windows import circuits
-from fluxbore.fem.field import nodal_flux_density
 from fluxbore.fem.magnetostatics import Solution, solve
 from fluxbore.fem.mapped import MappedMesh, Subdivision, mapped_mesh
 from fluxbore.fem.problem import Circuit, MagneticMaterial, Problem

@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from nodal_field import nodal_flux_density
 
 from fluxbore.fem.cell_picture import flux_map
-from fluxbore.fem.field import nodal_flux_density
 from fluxbore.fem.line_field import along_radius
 from fluxbore.fem.tubular import TubularSolution
 

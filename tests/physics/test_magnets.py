@@ -5,9 +5,9 @@ from typing import Any
 
 import numpy as np
 import pytest
+from nodal_field import nodal_flux_density
 from stress_force import axial_force
 
-from fluxbore.fem.field import nodal_flux_density
 from fluxbore.fem.magnetostatics import Solution
 from fluxbore.fem.problem import MagneticMaterial
 
