@@ -17,6 +17,7 @@ from fluxbore.fem.factors import Factor, SingularMatrixError
 from fluxbore.fem.linear import Method, check_finite
 from fluxbore.fem.mapped import MappedMesh
 from fluxbore.fem.mesh import Floats, Ints
+from fluxbore.fem.newton import solved
 from fluxbore.fem.plain_cells import PlainFactor
 from fluxbore.fem.problem import MagneticMaterial, Problem
 from fluxbore.fem.refined import Refined
@@ -111,8 +112,7 @@ class CellSystem(Kernels):
 
     def response(self, factor: Factor, load: Floats, accuracy: float) -> Floats:
         """(n, k) nodal, what a factorised matrix gives for nodal loads (n, k)."""
-        right = np.where(self._free[:, None], load, 0.0)
-        return factor.within(right, accuracy) if accuracy and isinstance(factor, Refined) else factor.solve(right)
+        return solved(factor, np.where(self._free[:, None], load, 0.0), accuracy)
 
     def _at(self, psi: Floats) -> _State:
         """The last state is kept: a residual and its tangent ask for the same."""

@@ -21,7 +21,7 @@ from fluxbore.fem.element import (
 from fluxbore.fem.factors import Factor
 from fluxbore.fem.linear import Corrected, Method, Tangents, factorise
 from fluxbore.fem.mesh import Floats, Ints, Mesh
-from fluxbore.fem.newton import ROUGHEST, Convergence, Iterative, newton
+from fluxbore.fem.newton import ROUGHEST, Convergence, newton, solved
 from fluxbore.fem.problem import MagneticMaterial, Problem, Stack
 
 
@@ -231,11 +231,6 @@ class System(Kernels):
             matrices = rows.transpose(0, 2, 1) @ (rows * factor[..., None])
             values += self.iron_gather.assemble(matrices)
         return values
-
-
-def solved(factor: Factor, right: Floats, accuracy: float) -> Floats:
-    """x (n, k) to this accuracy of its residual where the factor can do with less than all."""
-    return factor.within(right, accuracy) if accuracy and isinstance(factor, Iterative) else factor.solve(right)
 
 
 def in_sheets(stack: Stack) -> Floats:

@@ -45,6 +45,11 @@ class Iterative(Protocol):
         ...
 
 
+def solved(factor: Factor, right: Floats, accuracy: float) -> Floats:
+    """x (n, k) to this accuracy of its residual where the factor can do with less than all."""
+    return factor.within(right, accuracy) if accuracy and isinstance(factor, Iterative) else factor.solve(right)
+
+
 @dataclass(frozen=True, slots=True)
 class Convergence:
     """How an iteration ended.

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from fluxbore.fem.asymptotic import Rim
-from fluxbore.fem.factors import SingularMatrixError
+from fluxbore.fem.factors import symmetric_superlu
 from fluxbore.fem.mesh import Floats, Ints
 
 
@@ -20,22 +20,13 @@ class PlainFactor:
     def __init__(self, nodes: Ints, free: Any, matrices: Floats, rim: Rim | None) -> None:
         """nodes : (m, k) of the cells. free : (n,) whether a node's ψ is unknown. matrices : (m, k, k)."""
         from scipy.sparse import coo_array
-        from scipy.sparse.linalg import splu
 
         parts = [(nodes, matrices)] if rim is None else [(nodes, matrices), (rim.nodes, rim.matrices)]
         self._free = np.flatnonzero(free)
         rows, columns = (np.concatenate(where) for where in zip(*(_where(own) for own, _ in parts), strict=True))
         values = np.concatenate([own.ravel() for _, own in parts])
         whole = coo_array((values, (rows, columns)), shape=(free.size, free.size)).tocsr()
-        try:
-            self._factor = splu(
-                whole[self._free][:, self._free].tocsc(),
-                permc_spec="MMD_AT_PLUS_A",
-                diag_pivot_thresh=0.0,
-                options={"SymmetricMode": True},
-            )
-        except RuntimeError as error:
-            raise SingularMatrixError(str(error)) from error
+        self._factor = symmetric_superlu(whole[self._free][:, self._free].tocsc())
 
     def solve(self, right: Floats) -> Floats:
         """x (n,) or (n, k) with A x = right, zero where ψ is prescribed."""

@@ -76,12 +76,6 @@ class Square:
     def nodes(self) -> int:
         return int(self.rows.size)
 
-    def number(self, rows: Ints, columns: Ints) -> Ints:
-        """Local numbers of the nodes at these places."""
-        place = np.empty((self.order + 1, self.order + 1), dtype=int)
-        place[self.rows, self.columns] = np.arange(self.nodes)
-        return place[rows, columns]
-
 
 @lru_cache(maxsize=8)
 def square(order: int) -> Square:

@@ -38,7 +38,6 @@ def test_nodes_on_the_edge_come_first(order: int) -> None:
     counts = np.bincount(nodes.ravel())
     assert np.all(counts[nodes[:, shape.edge :]] == 1)
     assert counts.size == (3 * order + 1) * (4 * order + 1)
-    assert np.array_equal(shape.number(shape.rows, shape.columns), np.arange(shape.nodes))
 
 
 def test_fields_of_a_polynomial(cells: Cells) -> None:
