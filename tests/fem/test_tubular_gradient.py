@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import pytest
+from counted_solutions import counted_solutions
 from hypothesis import given
 from hypothesis import strategies as st
 from small_motor import (
@@ -18,7 +19,6 @@ from small_motor import (
 )
 
 from fluxbore.fem import functionals
-from fluxbore.fem.cell_band import CellFactor
 from fluxbore.fem.factors import Band
 from fluxbore.fem.functionals import Functional
 from fluxbore.fem.tubular import TubularSolution, space_vector
@@ -256,19 +256,12 @@ def test_no_matrix_is_factorised(section: CrossSection, monkeypatch: pytest.Monk
     """
     tubular = solved(section, LOADED)
     tubular.thrust_constants()  # the forward evaluation's own
-    columns: list[int] = []
-    solve = CellFactor.solve
+    columns = counted_solutions(monkeypatch)
 
     def refuse(*_: object) -> None:
         raise AssertionError("A matrix was factorised.")
 
-    def counted(self: CellFactor, right: Array) -> Array:
-        if right.ndim == 1:
-            columns.append(1)
-        return solve(self, right)
-
     monkeypatch.setattr(Band, "__init__", refuse)
-    monkeypatch.setattr(CellFactor, "solve", counted)
     found, *_ = gradients(tubular, Places.of(section))
     # The force's adjoint is known, the linkage's and both of the inductance's are those of Clarke's two axes.
     fields = len(found) - 2 + 2

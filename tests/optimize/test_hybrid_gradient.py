@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from counted_solutions import counted_solutions
 from short_motor import EXAMPLE, short_spec
 
 from fluxbore.design.performance import to_mapping
@@ -186,21 +187,14 @@ def test_what_a_gradient_costs(spec: Spec, monkeypatch: pytest.MonkeyPatch) -> N
     """Catches a factorisation for a gradient, sweeps that grow with the keys, and more than one adjoint for a figure
     and position (each refined to its accuracy in up to three more sweeps)."""
     factors: list[int] = []
-    columns: list[int] = []
+    columns = counted_solutions(monkeypatch)
     build: Callable[..., None] = CellFactor.__init__
-    solve: Callable[[CellFactor, Array], Array] = CellFactor.solve
 
     def counted_build(self: CellFactor, *arguments: object) -> None:
         factors.append(1)
         build(self, *arguments)
 
-    def counted(self: CellFactor, right: Array) -> Array:
-        if right.ndim == 1:
-            columns.append(1)
-        return solve(self, right)
-
     monkeypatch.setattr(CellFactor, "__init__", counted_build)
-    monkeypatch.setattr(CellFactor, "solve", counted)
 
     def cost(keys: list[str]) -> tuple[int, int]:
         factors.clear()
