@@ -39,7 +39,8 @@ class Entries:
 class Places:
     """Where cells' matrices land in the band; made once for all designs and positions of a topology.
 
-    kept : (k,) nodes that are left. edge, inner : (m, e) and (m, i) nodes of each cell.
+    kept : (k,) nodes that are left. number : (n,) which of them a node is, or −1. edge, inner : (m, e) and (m, i) nodes
+    of each cell.
     """
 
     def __init__(self, topology: Topology, rows: int, columns: int, order: int) -> None:
@@ -50,9 +51,9 @@ class Places:
         left = topology.freedom >= 0
         left[self.inner] = False
         self.kept = np.flatnonzero(left)
-        self._number = np.full(self.count, -1)
-        self._number[self.kept] = np.arange(self.kept.size)
-        unknown = self._number[self.edge]
+        self.number = np.full(self.count, -1)
+        self.number[self.kept] = np.arange(self.kept.size)
+        unknown = self.number[self.edge]
         self.bandwidth = int((unknown.max(axis=1) - np.where(unknown < 0, unknown.size, unknown).min(axis=1)).max())
         self._entries: dict[bytes, Entries] = {}
 
@@ -73,7 +74,7 @@ class Places:
         return self._entries[code]
 
     def _found(self, nodes: Ints) -> Entries:
-        unknown = self._number[nodes]
+        unknown = self.number[nodes]
         row, column = np.repeat(unknown, nodes.shape[1], axis=1).ravel(), np.tile(unknown, (1, nodes.shape[1])).ravel()
         real = np.flatnonzero((column >= 0) & (row >= column))
         target = column[real] * (self.bandwidth + 1) + row[real] - column[real]
@@ -91,13 +92,25 @@ def places(topology: Topology, rows: int, columns: int, order: int) -> Places:
 
 
 class CellFactor:
-    """A factorised matrix of a mapped mesh: right sides and solutions are nodal, zero where ψ is prescribed.
+    """A factorised matrix of a mapped mesh: right sides and solutions are nodal, zero where ψ is prescribed."""
 
-    In the precision of the band: with single precision, four or five digits, a solution reads half of the memory.
-    """
+    def solve(self, right: Floats) -> Floats:
+        """x (n,) or (n, k) with A x = right."""
+        if right.ndim == 2:
+            return np.column_stack([self.solve(column) for column in right.T])
+        return self._solved(np.ascontiguousarray(right))
+
+    def _solved(self, right: Floats) -> Floats:
+        raise NotImplementedError
+
+
+class BandFactor(CellFactor):
+    """By LAPACK, in the precision of the band: with single precision, four or five digits, a solution reads half of the
+    memory."""
 
     def __init__(self, where: Places, band: Any, parts: Sequence[tuple[Ints, Condensed]]) -> None:
         """band : overwritten. parts : which cells, and what was inside of them. Raises SingularMatrixError."""
+        super().__init__()
         self._where, self.precision = where, band.dtype
         self._band = Band(band)
         self._inner = np.concatenate([where.inner[chosen] for chosen, _ in parts])
@@ -105,10 +118,7 @@ class CellFactor:
         self._inverse = np.concatenate([cells.inverse for _, cells in parts])
         self._coupling = np.concatenate([cells.coupling for _, cells in parts])
 
-    def solve(self, right: Floats) -> Floats:
-        """x (n,) or (n, k) with A x = right."""
-        if right.ndim == 2:
-            return np.column_stack([self.solve(column) for column in right.T])
+    def _solved(self, right: Floats) -> Floats:
         where = self._where
         scale = float(np.abs(right).max(initial=0.0)) or 1.0  # within what single precision can hold
         scaled = (right / scale).astype(self.precision)

@@ -11,7 +11,7 @@ so that nine of the 25 unknowns of a cell of fourth order never meet the others 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cache, lru_cache
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -34,6 +34,10 @@ class Condensed:
     edge: Any
     inverse: Any
     coupling: Any
+
+    def rounded(self, precision: Precision) -> Condensed:
+        """To a precision."""
+        return Condensed(*(part.astype(precision, copy=False) for part in (self.edge, self.inverse, self.coupling)))
 
 
 def condensed(shape: Square, matrices: Any) -> Condensed:
@@ -69,7 +73,7 @@ def inverted(matrices: Any) -> Any:
 
 
 @cache
-def _products(order: int, single: bool = False) -> Any:
+def slope_products(order: int, single: bool = False) -> Any:
     """(3 points, n²) of the shape functions' slopes at each point: ∂_s ∂_s, ∂_s ∂_z + ∂_z ∂_s, ∂_z ∂_z."""
     shape = square(order)
     across, along = shape.across.T, shape.along.T
@@ -93,87 +97,5 @@ def cell_matrices(
     """
     width, steep = cells.width[chosen], cells.inverse_radius[chosen] / cells.height[chosen]
     factors = np.concatenate((across / width**2, mixed * steep / width, along * steep**2), axis=1)
-    n = cells.square.nodes
-    return (factors.astype(precision, copy=False) @ _products(cells.square.order, precision is np.float32)).reshape(
-        -1, n, n
-    )
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class _Columns:
-    """The matrices of rectangles of unit width and height, by column; see `linear_condensed`.
-
-    along : (columns, n, n) B. modes : (columns, i, i) V with Vᵀ A_ii V = 1 and Vᵀ B_ii V = Λ. rates : (columns, i) Λ.
-    """
-
-    along: Floats
-    modes: Floats
-    rates: Floats
-
-
-@lru_cache(maxsize=4)
-def _columns(order: int, lines: bytes) -> _Columns:
-    """Of lines in s; one design's positions share them."""
-    shape = square(order)
-    s = np.frombuffer(lines)
-    at = s[:-1, None] + np.diff(s)[:, None] * shape.share
-    pairs = _products(order)
-    along = ((shape.weights / (2 * at)) @ pairs[-shape.points :]).reshape(-1, shape.nodes, shape.nodes)
-    inner = slice(shape.edge, None)
-    root = np.linalg.inv(np.linalg.cholesky(_across(order)[inner, inner]))
-    rates, turned = np.linalg.eigh(root @ along[:, inner, inner] @ root.T)
-    return _Columns(along, root.T @ turned, rates)
-
-
-@lru_cache(maxsize=4)
-def _across(order: int) -> Floats:
-    """(n, n) ∫ ∂_s φ ∂_s φᵀ on the unit square."""
-    shape = square(order)
-    return np.asarray((shape.weights @ _products(order)[: shape.points]).reshape(shape.nodes, -1))
-
-
-def linear_condensed(
-    cells: Cells, chosen: Ints, nu_r: Floats, nu_z: Floats, precision: Precision = np.float64
-) -> Condensed:
-    """Of chosen cells with the reluctivities (m,) along r and along z (m/H).
-
-    A rectangle of width w in s and height h in z has the matrix
-
-        ν_z h/w A + ν_r w/h B ,   A = ∫ ∂_s φ ∂_s φᵀ ,   B = ∫ (1/2s) ∂_z φ ∂_z φᵀ   (on the unit square),
-
-    where A is the same for all and B differs by column only. In the modes of the pencil (A, B) inside of a cell the
-    inverse is diagonal: one eigenvalue problem for each column serves all rows and positions.
-    """
-    shape = cells.square
-    order, e = shape.order, shape.edge
-    of_columns = _columns(order, cells.grid.r_nodes[::order].tobytes())
-    first, kind = _kinds(cells, chosen, nu_r, nu_z)
-    column = chosen[first] % cells.shape[1]
-    aspect = cells.height[chosen[first], 0] / cells.width[chosen[first], 0]
-    a, b = (nu_z[first] * aspect)[:, None, None], (nu_r[first] / aspect)[:, None, None]
-    rates = a + b * of_columns.rates[column][:, None, :]
-    if not np.all(rates > 0):
-        raise SingularMatrixError("the matrix is not positive definite inside of a cell")
-    modes, whole_a, whole_b = of_columns.modes[column], _across(order), of_columns.along[column]
-    inverse = (modes / rates) @ modes.transpose(0, 2, 1)
-    across = a * whole_a[e:, :e] + b * whole_b[:, e:, :e]
-    coupling = inverse @ across
-    edge = a * whole_a[:e, :e] + b * whole_b[:, :e, :e] - across.transpose(0, 2, 1) @ coupling
-    # Rounded at the end only: digits lost on the way would cost a sweep of refinement more.
-    return Condensed(*(part.astype(precision, copy=False)[kind] for part in (edge, inverse, coupling)))
-
-
-def _kinds(cells: Cells, chosen: Ints, nu_r: Floats, nu_z: Floats) -> tuple[Ints, Ints]:
-    """The first cell of each kind, and the kind of each of the chosen: many rows, such as magnets', are of one height.
-
-    Heights that differ by less than a few parts in 10¹³ differ by rounding.
-    """
-    columns = cells.shape[1]
-    heights = cells.height[::columns, 0]
-    exponent = np.frexp(heights)[1]
-    _, of_row = np.unique(np.ldexp(np.rint(np.ldexp(heights, 43 - exponent)), exponent - 43), return_inverse=True)
-    _, of_r = np.unique(nu_r, return_inverse=True)
-    _, of_z = np.unique(nu_z, return_inverse=True)
-    code = ((of_row.ravel()[chosen // columns] * columns + chosen % columns) * chosen.size + of_r) * chosen.size + of_z
-    _, first, kind = np.unique(code, return_index=True, return_inverse=True)
-    return first, kind.ravel()
+    products = slope_products(cells.square.order, precision is np.float32)
+    return (factors.astype(precision, copy=False) @ products).reshape(-1, cells.square.nodes, cells.square.nodes)

@@ -18,7 +18,8 @@ class Cells:
     """The cells of a grid, row by row.
 
     nodes : (m, n), in the order of `tensor_product.Square`. width, height : (m, 1) in s (m²) and in z (m).
-    share : (points,) of the width at each quadrature point. weight : (m, points), ds dz (m³). region : (m,).
+    widths, heights : (columns,) and (rows,) of them. share : (points,) of the width at each quadrature point.
+    weight : (m, points), ds dz (m³). region : (m,).
     """
 
     def __init__(self, grid: MappedMesh) -> None:
@@ -26,9 +27,9 @@ class Cells:
         self.square = square(grid.order)
         self.shape = grid.shape
         self.nodes = cell_nodes(*self.shape, grid.order)
-        self._widths, self._heights = np.diff(grid.r_nodes[:: grid.order]), np.diff(grid.z_lines)
-        self.width = np.tile(self._widths, self.shape[0])[:, None]
-        self.height = np.repeat(self._heights, self.shape[1])[:, None]
+        self.widths, self.heights = np.diff(grid.r_nodes[:: grid.order]), np.diff(grid.z_lines)
+        self.width = np.tile(self.widths, self.shape[0])[:, None]
+        self.height = np.repeat(self.heights, self.shape[1])[:, None]
         self.share = self.square.share
         self.weight = self.width * self.height * self.square.weights
         self.region = grid.region.ravel()
@@ -37,8 +38,13 @@ class Cells:
     def metric(self) -> Floats:
         """(m, points) 1/r² (1/m²)."""
         start = self.grid.r_nodes[: -1 : self.grid.order]
-        of_columns = 0.5 / (start[:, None] + self._widths[:, None] * self.share)
+        of_columns = 0.5 / (start[:, None] + self.widths[:, None] * self.share)
         return np.tile(of_columns, (self.shape[0], 1))
+
+    @property
+    def inverse_radius_of_columns(self) -> Floats:
+        """(columns, order + 1) 1/r (1/m) at the points along s."""
+        return self.inverse_radius[: self.shape[1], : self.square.order + 1]
 
     @cached_property
     def inverse_radius(self) -> Floats:
@@ -94,7 +100,7 @@ class Cells:
         s = np.zeros((near.shape[0] + 1, *near.shape[1:]))
         s[:-1] += near
         s[1:] += far
-        rise = (rows.T / self._heights).T
+        rise = (rows.T / self.heights).T
         z = np.zeros((rise.shape[0] + 1, *rise.shape[1:]))
         z[1:] += rise
         z[:-1] -= rise

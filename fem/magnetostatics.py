@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Protocol
@@ -42,7 +42,9 @@ class Equations(Protocol):
 
     problem: Problem
     load: Floats
-    iron: list[tuple[int, slice]]
+
+    @property
+    def iron(self) -> Sequence[object]: ...
 
     @property
     def kernel(self) -> Kernel: ...

@@ -62,7 +62,7 @@ def source_hash() -> str:
             top = (Path(folder) / room).resolve()
             files = [path for path in top.rglob("*") if path.is_file() and "__pycache__" not in path.parts]
             for path in sorted(files, key=lambda path: path.relative_to(top).as_posix()):
-                if path.name.startswith(".") or path.suffix == ".pyc":
+                if path.name.startswith(".") or path.suffix in (".pyc", ".so"):  # made of the files that count
                     continue
                 content = path.read_bytes()
                 digest.update(f"{room}/{path.relative_to(top).as_posix()} {len(content)}\n".encode())

@@ -8,7 +8,7 @@ import pytest
 from stress_force import axial_force
 
 from fluxbore.design.spec import Spec
-from fluxbore.fem.cell_matrices import cell_matrices, condensed, inverted, linear_condensed
+from fluxbore.fem.cell_matrices import inverted
 from fluxbore.fem.cell_system import CellSystem
 from fluxbore.fem.factors import SingularMatrixError
 from fluxbore.fem.magnetostatics import Settings, solve
@@ -52,24 +52,10 @@ def test_factors_are_the_tangents(
 ) -> None:
     """Catches a condensed matrix that is another than the product's: A⁻¹ A x = x, as good as the precision allows."""
     psi = mid_stroke.solution.psi
-    factor = system._factor(system._at(psi), precision, system._linear)
+    factor = system._factor(system._at(psi).tensor, precision, system._remembered())
     x = psi * np.random.default_rng(3).uniform(-1, 1, psi.size)
     found = factor.solve(system.tangent_product(psi, x[:, None])[:, 0])
     assert np.abs(found - x).max() < (1e-2 if precision == np.float32 else 1e-8) * np.abs(x).max()
-
-
-def test_linear_cells_by_modes(system: CellSystem) -> None:
-    """Catches a mode of another column, or cells taken for alike that are not: against the matrices themselves."""
-    cells = system.cells
-    chosen = np.arange(0, cells.region.size, 3)
-    rng = np.random.default_rng(4)
-    nu_r, nu_z = rng.uniform(1, 3, (2, chosen.size))
-    weight = cells.weight[chosen]
-    whole = cell_matrices(cells, chosen, nu_z[:, None] * weight, np.zeros_like(weight), nu_r[:, None] * weight)
-    expected, found = condensed(cells.square, whole), linear_condensed(cells, chosen, nu_r, nu_z)
-    for name in ("edge", "inverse", "coupling"):
-        one, other = getattr(found, name), getattr(expected, name)
-        assert np.all(np.abs(one - other) <= 1e-8 * np.abs(other).max(axis=(1, 2), keepdims=True)), name
 
 
 def test_inverses_all_at_once() -> None:

@@ -1,0 +1,12 @@
+/* Which of the kernels this processor can run. */
+
+/* Whether it has vectors of 32 bytes and multiplies and adds at once; then the kernels of level "v3" run, else "base". */
+int has_v3(void)
+{
+#if defined(__x86_64__)
+    __builtin_cpu_init();
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+#else
+    return 0;
+#endif
+}

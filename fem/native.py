@@ -1,0 +1,90 @@
+"""The library of fem/kernels, where it is compiled: C's inner loops over the cells of a mapped mesh.
+
+What a mesh of a few hundred cells needs is too little for numpy, whose calls then take longer than their work.
+"""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from fluxbore.fem.kernels.build import library
+
+FOLDER = Path(__file__).parent / "kernels"
+
+COUNT, POINTER = ctypes.c_int64, ctypes.c_void_p
+
+
+class Mesh(ctypes.Structure):
+    """`Mesh` of kernels.h."""
+
+    _fields_ = [
+        ("rows", COUNT),
+        ("columns", COUNT),
+        ("width", POINTER),
+        ("height", POINTER),
+        ("inverse_radius", POINTER),
+        ("nu_r", POINTER),
+        ("nu_z", POINTER),
+        ("curve", POINTER),
+        ("iron", POINTER),
+        ("others", POINTER),
+        ("irons", COUNT),
+        ("place", POINTER),
+        ("steps", POINTER),
+        ("intervals", POINTER),
+        ("coefficients", POINTER),
+        ("most", COUNT),
+        ("value", POINTER),
+        ("slope", POINTER),
+        ("gauss", POINTER),
+        ("nodes", POINTER),
+        ("is_free", POINTER),
+        ("load", POINTER),
+        ("rim_edges", COUNT),
+        ("rim_nodes", POINTER),
+        ("rim_matrices", POINTER),
+        ("across", POINTER),
+        ("along", POINTER),
+        ("unknowns", COUNT),
+        ("tiles", COUNT),
+        ("number", POINTER),
+        ("target", POINTER),
+    ]
+
+
+class Parts(ctypes.Structure):
+    """`Parts` of kernels.h."""
+
+    _fields_ = [("edge", POINTER), ("inverse", POINTER), ("coupling", POINTER)]
+
+
+@cache
+def kernels() -> dict[str, Callable[..., int]] | None:
+    """The library's functions for this processor, by name; None where it is not compiled or does not load.
+
+    Each returns zero, or something else where it failed.
+    """
+    try:
+        loaded = ctypes.CDLL(str(library()))
+    except OSError:
+        return None
+    level = "v3" if loaded.has_v3() else "base"
+    mesh, parts = ctypes.POINTER(Mesh), ctypes.POINTER(Parts)
+    arguments: dict[str, list[Any]] = {
+        "residual": [mesh, POINTER, POINTER, POINTER],
+        "product": [mesh, POINTER, POINTER, POINTER],
+        "condense_linear": [mesh, parts],
+        "condense_iron": [mesh, POINTER, parts],
+        "factorise": [mesh, POINTER, POINTER, POINTER],
+        "solve": [mesh, POINTER, parts, parts, POINTER, POINTER],
+    }
+    found = {}
+    for name, types in arguments.items():
+        function = getattr(loaded, f"{name}_{level}")
+        function.argtypes, function.restype = types, ctypes.c_int
+        found[name] = function
+    return found
