@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
@@ -23,8 +22,6 @@ ORDER = 4
 
 TILE = 16
 """The band is kept in squares of so many rows and columns."""
-
-Kernels = dict[str, Callable[..., int]]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -49,7 +46,7 @@ def _parts(count: int) -> _Parts:
 class CellNative:
     """See `CellKernels`."""
 
-    def __init__(self, model: CellModel, kernels: Kernels) -> None:
+    def __init__(self, model: CellModel, kernels: native.Kernels) -> None:
         """model : its cells are of fourth order."""
         assert model.cells.square.order == ORDER
         self._run, self._model, self._kept = kernels, model, list[Any]()

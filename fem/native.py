@@ -8,12 +8,9 @@ from __future__ import annotations
 import ctypes
 from collections.abc import Callable
 from functools import cache
-from pathlib import Path
 from typing import Any
 
 from fluxbore.fem.kernels.build import library
-
-FOLDER = Path(__file__).parent / "kernels"
 
 COUNT, POINTER = ctypes.c_int64, ctypes.c_void_p
 
@@ -62,17 +59,21 @@ class Parts(ctypes.Structure):
     _fields_ = [("edge", POINTER), ("inverse", POINTER), ("coupling", POINTER)]
 
 
-@cache
-def kernels() -> dict[str, Callable[..., int]] | None:
-    """The library's functions for this processor, by name; None where it is not compiled or does not load.
+Kernels = dict[str, Callable[..., int]]
+"""The library's functions by name. Each returns zero, or something else where it failed."""
 
-    Each returns zero, or something else where it failed.
+
+@cache
+def kernels(level: str | None = None) -> Kernels | None:
+    """None where the library is not compiled or does not load.
+
+    level : a kind of processor of kernels/build.py that this one must be; this processor's without.
     """
     try:
         loaded = ctypes.CDLL(str(library()))
     except OSError:
         return None
-    level = "v3" if loaded.has_v3() else "base"
+    level = level or ("v3" if loaded.has_v3() else "base")
     mesh, parts = ctypes.POINTER(Mesh), ctypes.POINTER(Parts)
     arguments: dict[str, list[Any]] = {
         "residual": [mesh, POINTER, POINTER, POINTER],

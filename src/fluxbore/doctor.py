@@ -23,8 +23,9 @@ class Finding:
 
 
 def diagnose() -> list[Finding]:
-    """Look at the interpreter, the packages, the graphics libraries and the machine, in that order (0.2 s)."""
-    return [_python(), *_packages(), _gl(), _egl(), _temporary_folder(), _cores()]
+    """Look at the interpreter, packages, the solver's kernels, graphics libraries and the machine, in that order
+    (0.2 s)."""
+    return [_python(), *_packages(), _kernels(), _gl(), _egl(), _temporary_folder(), _cores()]
 
 
 def report(findings: list[Finding]) -> str:
@@ -68,6 +69,16 @@ def _package(name: str) -> Finding:
         return Finding(name, True, metadata.version(name))
     except metadata.PackageNotFoundError:
         return Finding(name, False, "not installed", f"{sys.executable} -m pip install {name}")
+
+
+def _kernels() -> Finding:
+    """Without them nothing is missing but time."""
+    from fluxbore.fem.native import kernels
+
+    if kernels() is not None:
+        return Finding("solver kernels", True, "compiled")
+    detail = "not compiled: designs of the hybrid actuator take two to three times as long"
+    return Finding("solver kernels", True, detail, "install a C compiler (Debian: gcc libc6-dev), then fluxbore again")
 
 
 def _gl() -> Finding:
