@@ -96,11 +96,9 @@ class CellFactor:
 
     def solve(self, right: Floats) -> Floats:
         """x (n,) or (n, k) with A x = right."""
-        if right.ndim == 2:
-            return np.column_stack([self.solve(column) for column in right.T])
-        return self._solved(np.ascontiguousarray(right))
+        return self._solved(right) if right.ndim == 2 else self._solved(right[:, None])[:, 0]
 
-    def _solved(self, right: Floats) -> Floats:
+    def _solved(self, columns: Floats) -> Floats:
         raise NotImplementedError
 
 
@@ -118,7 +116,10 @@ class BandFactor(CellFactor):
         self._inverse = np.concatenate([cells.inverse for _, cells in parts])
         self._coupling = np.concatenate([cells.coupling for _, cells in parts])
 
-    def _solved(self, right: Floats) -> Floats:
+    def _solved(self, columns: Floats) -> Floats:
+        return np.column_stack([self._one(column) for column in columns.T])
+
+    def _one(self, right: Floats) -> Floats:
         where = self._where
         scale = float(np.abs(right).max(initial=0.0)) or 1.0  # within what single precision can hold
         scaled = (right / scale).astype(self.precision)

@@ -150,12 +150,13 @@ class CellNative:
         if self._run[name](self._mesh, *arguments):
             raise SingularMatrixError("the matrix is not positive definite")
 
-    def solved(self, band: Any, linear: _Parts, iron: _Parts, right: Floats) -> Floats:
-        """(n,) by a factor."""
-        found = np.empty(right.size)
+    def solved(self, band: Any, linear: _Parts, iron: _Parts, columns: Floats) -> Floats:
+        """(n, k) by a factor, which is read once for all columns."""
+        right = np.ascontiguousarray(columns.T, dtype=float)
+        found = np.empty_like(right)
         addresses = right.ctypes.data, found.ctypes.data
-        self._done("solve", band.ctypes.data, linear.pointers, iron.pointers, *addresses)
-        return found
+        self._done("solve", band.ctypes.data, linear.pointers, iron.pointers, right.shape[0], *addresses)
+        return found.T
 
 
 class NativeFactor(CellFactor):
@@ -167,8 +168,8 @@ class NativeFactor(CellFactor):
         super().__init__()
         self._cells, self._band, self._linear, self._iron = cells, band, linear, iron
 
-    def _solved(self, right: Floats) -> Floats:
-        return self._cells.solved(self._band, self._linear, self._iron, right)
+    def _solved(self, columns: Floats) -> Floats:
+        return self._cells.solved(self._band, self._linear, self._iron, columns)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

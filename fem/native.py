@@ -81,7 +81,7 @@ def kernels(level: str | None = None) -> Kernels | None:
         "condense_linear": [mesh, parts],
         "condense_iron": [mesh, POINTER, parts],
         "factorise": [mesh, POINTER, POINTER, POINTER],
-        "solve": [mesh, POINTER, parts, parts, POINTER, POINTER],
+        "solve": [mesh, POINTER, parts, parts, COUNT, POINTER, POINTER],
     }
     found = {}
     for name, types in arguments.items():

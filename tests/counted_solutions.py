@@ -9,13 +9,12 @@ from fluxbore.fem.cell_band import CellFactor
 
 
 def counted_solutions(monkeypatch: pytest.MonkeyPatch) -> list[int]:
-    """A one for each right side from now on; several at once are solved one by one."""
+    """How many right sides at each solution from now on."""
     columns: list[int] = []
     solve = CellFactor.solve
 
     def counted(self: CellFactor, right: np.ndarray) -> np.ndarray:
-        if right.ndim == 1:
-            columns.append(1)
+        columns.extend(right.shape[1:] or (1,))
         return solve(self, right)
 
     monkeypatch.setattr(CellFactor, "solve", counted)

@@ -38,7 +38,8 @@ static void add_rim(const Mesh *m, float *band)
             }
 }
 
-/* The factor of a diagonal tile in place, zero above the diagonal; returns 0, or 1 where a pivot is not positive. */
+/* The factor of a diagonal tile in place: zero above the diagonal, on which are inverses. Returns 0, or 1 where a pivot
+   is not positive. */
 static int factor_diagonal(float *tile)
 {
     for (int k = 0; k < TILE; k++) {
@@ -47,8 +48,10 @@ static int factor_diagonal(float *tile)
             return 1;
         for (int i = 0; i < k; i++)
             tile[k * TILE + i] = 0;
-        const Sixteen column = scaled16(load16(tile + k * TILE), 1 / sqrtf(pivot));
+        const float inverse = 1 / sqrtf(pivot);
+        const Sixteen column = scaled16(load16(tile + k * TILE), inverse);
         store16(tile + k * TILE, column);
+        tile[k * TILE + k] = inverse;
         for (int j = k + 1; j < TILE; j++)
             store16(tile + j * TILE, minus_scaled16(load16(tile + j * TILE), column, tile[k * TILE + j]));
     }
@@ -62,7 +65,7 @@ static void solve_tile(const float *diagonal, float *tile)
         Sixteen x = load16(tile + k * TILE);
         for (int j = 0; j < k; j++)
             x = minus_scaled16(x, load16(tile + j * TILE), diagonal[j * TILE + k]);
-        store16(tile + k * TILE, scaled16(x, 1 / diagonal[k * TILE + k]));
+        store16(tile + k * TILE, scaled16(x, diagonal[k * TILE + k]));
     }
 }
 
@@ -83,8 +86,8 @@ static void subtract_product(float *target, const float *a, const float *b)
     }
 }
 
-/* The band (blocks, tiles, TILE, TILE) of all cells' edges and the rim's, factorised. Returns 0, or 1 where the matrix is
-   not positive definite. */
+/* The band (blocks, tiles, TILE, TILE) of all cells' edges and the rim's, factorised. Returns 0, or 1 where the matrix
+   is not positive definite. */
 int NAME(factorise)(const Mesh *m, const float *linear, const float *iron, float *band)
 {
     const int64_t blocks = (m->unknowns + TILE - 1) / TILE, tiles = m->tiles;
@@ -103,126 +106,133 @@ int NAME(factorise)(const Mesh *m, const float *linear, const float *iron, float
             solve_tile(column, column + i * TILE_SIZE);
         for (int64_t j = 1; j < below; j++)
             for (int64_t i = j; i < below; i++)
-                subtract_product(column + (j * tiles + i - j) * TILE_SIZE, column + i * TILE_SIZE, column + j * TILE_SIZE);
+                subtract_product(column + (j * tiles + i - j) * TILE_SIZE, column + i * TILE_SIZE,
+                                 column + j * TILE_SIZE);
     }
     return 0;
 }
 
-/* x with L L^T x = the right side (blocks * TILE,), in its place. */
-static void substitute(const float *band, int64_t blocks, int64_t tiles, float *x)
+/* x with L L^T x = the right side (blocks * TILE,), in its place, one block of it after another. */
+static void forward(const float *column, int64_t below, float *x)
 {
-    float solved[TILE];
-    for (int64_t block = 0; block < blocks; block++) {
-        const float *column = band + block * tiles * TILE_SIZE;
-        const int64_t below = blocks - block < tiles ? blocks - block : tiles;
-        float *here = x + block * TILE;
-        Sixteen rest = load16(here);
-        for (int k = 0; k < TILE; k++) {
-            store16(here, rest);
-            const float y = here[k] / column[k * TILE + k];
-            rest = minus_scaled16(rest, load16(column + k * TILE), y);
-            solved[k] = y;
-        }
-        memcpy(here, solved, sizeof solved);
-        for (int64_t i = 1; i < below; i++) {
-            Sixteen even = load16(here + i * TILE), odd = zero16();
-            for (int k = 0; k < TILE; k += 2) {
-                even = minus_scaled16(even, load16(column + (i * TILE + k) * TILE), here[k]);
-                odd = minus_scaled16(odd, load16(column + (i * TILE + k + 1) * TILE), here[k + 1]);
-            }
-            EACH even.part[p_] += odd.part[p_];
-            store16(here + i * TILE, even);
-        }
+    Sixteen rest = load16(x);
+    for (int k = 0; k < TILE; k++) {
+        const float y = lane16(rest, k) * column[k * TILE + k];
+        rest = minus_scaled16(rest, load16(column + k * TILE), y);
+        x[k] = y;
     }
-    for (int64_t block = blocks - 1; block >= 0; block--) {
-        const float *column = band + block * tiles * TILE_SIZE;
-        const int64_t below = blocks - block < tiles ? blocks - block : tiles;
-        float *here = x + block * TILE;
-        for (int k = TILE - 1; k >= 0; k--) {
-            Sixteen sum = zero16();
-            for (int64_t i = 1; i < below; i++)
-                sum = plus_product16(sum, load16(column + (i * TILE + k) * TILE), load16(here + i * TILE));
-            solved[k] = here[k] - total16(sum);
+    for (int64_t i = 1; i < below; i++) {
+        Sixteen even = load16(x + i * TILE), odd = zero16();
+        for (int k = 0; k < TILE; k += 2) {
+            even = minus_scaled16(even, load16(column + (i * TILE + k) * TILE), x[k]);
+            odd = minus_scaled16(odd, load16(column + (i * TILE + k + 1) * TILE), x[k + 1]);
         }
-        for (int k = TILE - 1; k >= 0; k--) {
-            for (int j = k + 1; j < TILE; j++)
-                solved[k] -= column[k * TILE + j] * solved[j];
-            solved[k] /= column[k * TILE + k];
-        }
-        memcpy(here, solved, sizeof solved);
+        store16(x + i * TILE, plus16(even, odd));
     }
 }
 
-static void condense_right(const Mesh *m, const int32_t *cells, int64_t count, const Parts *parts, float *nodal)
+static void backward(const float *column, int64_t below, float *x)
 {
-    const int64_t across = ORDER * m->columns + 1;
-    for (int64_t k = 0; k < count; k++) {
-        float *first = nodal + ORDER * (cells[k] / m->columns) * across + ORDER * (cells[k] % m->columns);
+    for (int k = TILE - 1; k >= 0; k--) {
         Sixteen sum = zero16();
-        for (int i = 0; i < INNER; i++) {
-            const float inside = first[m->nodes[2 * (EDGE + i)] * across + m->nodes[2 * (EDGE + i) + 1]];
-            sum = minus_scaled16(sum, load16(parts->coupling + (k * INNER + i) * EDGE), inside);
-        }
-        float pull[EDGE];
-        store16(pull, sum);
-        for (int i = 0; i < EDGE; i++)
-            first[m->nodes[2 * i] * across + m->nodes[2 * i + 1]] += pull[i];
+        for (int64_t i = 1; i < below; i++)
+            sum = plus_product16(sum, load16(column + (i * TILE + k) * TILE), load16(x + i * TILE));
+        x[k] -= total16(sum);
+    }
+    for (int k = TILE - 1; k >= 0; k--) {
+        for (int j = k + 1; j < TILE; j++)
+            x[k] -= column[k * TILE + j] * x[j];
+        x[k] *= column[k * TILE + k];
     }
 }
 
-static void spread_inside(const Mesh *m, const int32_t *cells, int64_t count, const Parts *parts, float *nodal)
+/* Of a right side's nodal values those on the cells' edges less C D^-1 times those inside. */
+static void condense_right(const Mesh *m, int64_t cell, const Parts *parts, int64_t k, float *nodal)
 {
     const int64_t across = ORDER * m->columns + 1;
-    for (int64_t k = 0; k < count; k++) {
-        float *first = nodal + ORDER * (cells[k] / m->columns) * across + ORDER * (cells[k] % m->columns);
-        float edge[EDGE], inside[EDGE] = {0};
-        for (int i = 0; i < EDGE; i++)
-            edge[i] = first[m->nodes[2 * i] * across + m->nodes[2 * i + 1]];
-        for (int i = 0; i < INNER; i++)
-            inside[i] = first[m->nodes[2 * (EDGE + i)] * across + m->nodes[2 * (EDGE + i) + 1]];
-        for (int i = 0; i < INNER; i++) {
-            Sixteen both = zero16();
-            both = plus_product16(both, load16(parts->inverse + (k * INNER + i) * EDGE), load16(inside));
-            both = minus_product16(both, load16(parts->coupling + (k * INNER + i) * EDGE), load16(edge));
-            first[m->nodes[2 * (EDGE + i)] * across + m->nodes[2 * (EDGE + i) + 1]] = total16(both);
-        }
+    float *first = nodal + ORDER * (cell / m->columns) * across + ORDER * (cell % m->columns);
+    Sixteen sum = zero16();
+    for (int i = 0; i < INNER; i++) {
+        const float inside = first[m->nodes[2 * (EDGE + i)] * across + m->nodes[2 * (EDGE + i) + 1]];
+        sum = minus_scaled16(sum, load16(parts->coupling + (k * INNER + i) * EDGE), inside);
+    }
+    float pull[EDGE];
+    store16(pull, sum);
+    for (int i = 0; i < EDGE; i++)
+        first[m->nodes[2 * i] * across + m->nodes[2 * i + 1]] += pull[i];
+}
+
+/* What is inside of a cell, from the right side there and the solution on its edge. */
+static void spread_inside(const Mesh *m, int64_t cell, const Parts *parts, int64_t k, float *nodal)
+{
+    const int64_t across = ORDER * m->columns + 1;
+    float *first = nodal + ORDER * (cell / m->columns) * across + ORDER * (cell % m->columns);
+    float edge[EDGE], inside[EDGE] = {0};
+    for (int i = 0; i < EDGE; i++)
+        edge[i] = first[m->nodes[2 * i] * across + m->nodes[2 * i + 1]];
+    for (int i = 0; i < INNER; i++)
+        inside[i] = first[m->nodes[2 * (EDGE + i)] * across + m->nodes[2 * (EDGE + i) + 1]];
+    for (int i = 0; i < INNER; i++) {
+        Sixteen both = zero16();
+        both = plus_product16(both, load16(parts->inverse + (k * INNER + i) * EDGE), load16(inside));
+        both = minus_product16(both, load16(parts->coupling + (k * INNER + i) * EDGE), load16(edge));
+        first[m->nodes[2 * (EDGE + i)] * across + m->nodes[2 * (EDGE + i) + 1]] = total16(both);
     }
 }
 
-/* Nodal x with A x = the nodal right side, by A's factor; zero where there is no freedom. Returns 0, or 1 where there is no
-   memory. */
-int NAME(solve)(const Mesh *m, const float *band, const Parts *linear, const Parts *iron, const double *right, double *out)
+/* Nodal x (count, nodes) with A x = the nodal right sides (count, nodes), by A's factor; zero where there is no
+   freedom. What is read of the factor serves all right sides at once. Returns 0, or 1 where there is no memory. */
+int NAME(solve)(const Mesh *m, const float *band, const Parts *linear, const Parts *iron, int64_t count,
+                const double *right, double *out)
 {
     const int64_t nodes = (ORDER * m->columns + 1) * (ORDER * m->rows + 1), cells = m->rows * m->columns;
-    const int64_t blocks = (m->unknowns + TILE - 1) / TILE;
-    float *nodal = malloc((size_t)nodes * sizeof(float)), *x = calloc((size_t)(blocks * TILE), sizeof(float));
-    if (!nodal || !x) {
+    const int64_t blocks = (m->unknowns + TILE - 1) / TILE, size = blocks * TILE, tiles = m->tiles;
+    float *nodal = malloc((size_t)(count * nodes) * sizeof(float)), *x = calloc((size_t)(count * size), sizeof(float));
+    double *scale = malloc((size_t)count * sizeof(double)); /* within what single precision can hold */
+    if (!nodal || !x || !scale) {
         free(nodal);
         free(x);
+        free(scale);
         return 1;
     }
-    double scale = 0; /* within what single precision can hold */
-    for (int64_t n = 0; n < nodes; n++)
-        scale = fabs(right[n]) > scale ? fabs(right[n]) : scale;
-    scale = scale > 0 ? scale : 1;
-    for (int64_t n = 0; n < nodes; n++)
-        nodal[n] = (float)(right[n] / scale);
-    condense_right(m, m->others, cells - m->irons, linear, nodal);
-    condense_right(m, m->iron, m->irons, iron, nodal);
-    for (int64_t n = 0; n < nodes; n++)
-        if (m->number[n] >= 0)
-            x[m->number[n]] = nodal[n];
-    substitute(band, blocks, m->tiles, x);
-    for (int64_t n = 0; n < nodes; n++)
-        if (m->number[n] >= 0)
-            nodal[n] = x[m->number[n]];
-        else if (!m->is_free[n])
-            nodal[n] = 0;
-    spread_inside(m, m->others, cells - m->irons, linear, nodal);
-    spread_inside(m, m->iron, m->irons, iron, nodal);
-    for (int64_t n = 0; n < nodes; n++)
-        out[n] = nodal[n] * scale;
+    for (int64_t c = 0; c < count; c++) {
+        const double *from = right + c * nodes;
+        double largest = 0;
+        for (int64_t n = 0; n < nodes; n++)
+            largest = fabs(from[n]) > largest ? fabs(from[n]) : largest;
+        scale[c] = largest > 0 ? largest : 1;
+        for (int64_t n = 0; n < nodes; n++)
+            nodal[c * nodes + n] = (float)(from[n] / scale[c]);
+    }
+    for (int64_t cell = 0; cell < cells; cell++)
+        for (int64_t c = 0; c < count; c++)
+            condense_right(m, cell, m->curve[cell] < 0 ? linear : iron, m->place[cell], nodal + c * nodes);
+    for (int64_t c = 0; c < count; c++)
+        for (int64_t n = 0; n < nodes; n++)
+            if (m->number[n] >= 0)
+                x[c * size + m->number[n]] = nodal[c * nodes + n];
+    for (int64_t block = 0; block < blocks; block++)
+        for (int64_t c = 0; c < count; c++)
+            forward(band + block * tiles * TILE_SIZE, blocks - block < tiles ? blocks - block : tiles,
+                    x + c * size + block * TILE);
+    for (int64_t block = blocks - 1; block >= 0; block--)
+        for (int64_t c = 0; c < count; c++)
+            backward(band + block * tiles * TILE_SIZE, blocks - block < tiles ? blocks - block : tiles,
+                     x + c * size + block * TILE);
+    for (int64_t c = 0; c < count; c++)
+        for (int64_t n = 0; n < nodes; n++)
+            if (m->number[n] >= 0)
+                nodal[c * nodes + n] = x[c * size + m->number[n]];
+            else if (!m->is_free[n])
+                nodal[c * nodes + n] = 0;
+    for (int64_t cell = 0; cell < cells; cell++)
+        for (int64_t c = 0; c < count; c++)
+            spread_inside(m, cell, m->curve[cell] < 0 ? linear : iron, m->place[cell], nodal + c * nodes);
+    for (int64_t c = 0; c < count; c++)
+        for (int64_t n = 0; n < nodes; n++)
+            out[c * nodes + n] = nodal[c * nodes + n] * scale[c];
     free(nodal);
     free(x);
+    free(scale);
     return 0;
 }

@@ -9,8 +9,8 @@ typedef struct {
     double a[POINTS][WIDE] __attribute__((aligned(64)));
 } Whole;
 
-/* Gauss and Jordan's elimination of what is inside, which leaves D^-1, D^-1 C^T and K - C D^-1 C^T in place of D, C^T and
-   K. No exchanges, which definite matrices do not need. Returns 0, or 1 where a pivot is not positive. */
+/* Gauss and Jordan's elimination of what is inside, which leaves D^-1, D^-1 C^T and K - C D^-1 C^T in place of D, C^T
+   and K. No exchanges, which definite matrices do not need. Returns 0, or 1 where a pivot is not positive. */
 static int eliminate(Whole *whole)
 {
     double(*a)[WIDE] = whole->a;
@@ -140,7 +140,8 @@ static void iron_matrix(const Mesh *m, const Pairs *pairs, int64_t cell, const d
         }
 }
 
-/* All cells of iron, from their tangent's tensor (3, irons, POINTS). Returns 0, or 1 where one is not definite inside. */
+/* All cells of iron, from their tangent's tensor (3, irons, POINTS). Returns 0, or 1 where one is not definite
+   inside. */
 int NAME(condense_iron)(const Mesh *m, const double *tensor, const Parts *parts)
 {
     Pairs pairs __attribute__((aligned(64)));

@@ -1,7 +1,7 @@
-/* Kernels for a mapped mesh of cells of fourth order: what is said of them in fem/native.py holds here too.
+/* Kernels for a mapped mesh of cells of fourth order; fem/cell_native.py calls them, fem/cell_arrays.py does the same.
 
-   Nodes are on a lattice of (4 rows + 1) by (4 columns + 1), cells in rows along s. A cell's nodes are numbered with the
-   sixteen on its edge first, as in fem/tensor_product.py.
+   Nodes are on a lattice of (4 rows + 1) by (4 columns + 1), cells in rows along s. A cell's nodes are numbered with
+   the sixteen on its edge first, as in fem/tensor_product.py.
 
    LEVEL and BYTES name a kind of processor and the length of its vectors; every file is compiled once for each. */
 #ifndef FLUXBORE_KERNELS_H
@@ -94,6 +94,18 @@ INLINE Sixteen scaled16(Sixteen a, float b)
     return a;
 }
 
+INLINE Sixteen plus16(Sixteen sum, Sixteen a)
+{
+    EACH sum.part[p_] += a.part[p_];
+    return sum;
+}
+
+INLINE float lane16(Sixteen a, int k)
+{
+    const int lanes = BYTES / (int)sizeof(float);
+    return a.part[k / lanes][k % lanes];
+}
+
 INLINE Sixteen plus_product16(Sixteen sum, Sixteen a, Sixteen b)
 {
     EACH sum.part[p_] += a.part[p_] * b.part[p_];
@@ -158,7 +170,7 @@ typedef struct {
     int64_t unknowns;             /* of the condensed matrix */
     int64_t tiles;                /* in a column of the band, the diagonal one included */
     const int32_t *number;        /* (nodes of the lattice,) of a node's unknown, or -1 */
-    const int32_t *target;        /* (cells, PAIRS) in the tiles of each entry of a cell's edge's lower triangle, or -1 */
+    const int32_t *target;        /* (cells, PAIRS) in the tiles, of each entry of the edge's lower triangle, or -1 */
 } Mesh;
 
 /* What was inside of cells: of each the rows of D^-1 and of D^-1 C^T, and what is left on its edge. */

@@ -1,6 +1,6 @@
 /* Which of the kernels this processor can run. */
 
-/* Whether it has vectors of 32 bytes and multiplies and adds at once; then the kernels of level "v3" run, else "base". */
+/* Whether it has vectors of 32 bytes, and multiplies and adds at once: then those of level "v3" run, else "base". */
 int has_v3(void)
 {
 #if defined(__x86_64__)
