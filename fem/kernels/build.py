@@ -2,7 +2,7 @@
 
     python fem/kernels/build.py
 
-Where there is no C compiler fluxbore works without the library, by `fem.cell_arrays`; designs then take twice as long.
+Where there is no C compiler fluxbore works without the library, by `fem.cell_arrays`; designs then take three times as long.
 CC names the compiler.
 """
 

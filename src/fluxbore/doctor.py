@@ -77,8 +77,9 @@ def _kernels() -> Finding:
 
     if kernels() is not None:
         return Finding("solver kernels", True, "compiled")
-    detail = "not compiled: designs of the hybrid actuator take two to three times as long"
-    return Finding("solver kernels", True, detail, "install a C compiler (Debian: gcc libc6-dev), then fluxbore again")
+    detail = "not compiled: designs of the hybrid actuator take three times as long"
+    remedy = f"install a C compiler (Debian: gcc libc6-dev), then: {sys.executable} -m fluxbore.fem.kernels.build"
+    return Finding("solver kernels", True, detail, remedy)
 
 
 def _gl() -> Finding:
