@@ -37,7 +37,7 @@ from fluxbore.fem.cell_native import CellNative
 from fluxbore.fem.cell_system import CellSystem
 from fluxbore.fem.factors import Band
 from fluxbore.fem.magnetostatics import Settings
-from fluxbore.fem.native import kernels
+from fluxbore.fem.native import functions
 from fluxbore.fem.tubular import TubularSolution, solve_currents, solve_positions, space_vector
 from fluxbore.geometry.hybrid import cross_section
 from fluxbore.optimize.evaluate import evaluate
@@ -175,18 +175,23 @@ def show_factors(spec: Spec) -> None:
     (item,) = solved(spec, [spec.actuator.mid_stroke])
     system, psi = item.solution.system, item.solution.psi
     assert isinstance(system, CellSystem)
-    bands = {words: system.condensed_band(psi, precision) for words, precision in PRECISIONS.items()}
+    model = cell_model(system.problem, item.grid, system.rim)
+    arrays = CellArrays(model)
+    _, tensor = arrays.residual(psi)
+    bands = {
+        words: arrays.condensed(tensor, precision, arrays.linear(precision))[1]
+        for words, precision in PRECISIONS.items()
+    }
     size, width = bands["double"].shape
     print(f"\n{size} unknowns, half band {width - 1}, {size * (width - 1) ** 2 / 1e6:.0f} million operations\n")
     print("| factor | numbers | one solution |\n|---|---|---|")
-    model = cell_model(system.problem, item.grid, system.rim)
-    compiled = kernels()
-    kinds: list[tuple[str, CellKernels]] = [("numpy and LAPACK", CellArrays(model))]
+    compiled = functions()
+    kinds: list[tuple[str, CellKernels]] = [("numpy and LAPACK", arrays)]
     if compiled is not None:
         kinds.insert(0, ("compiled kernels", CellNative(model, compiled)))
     for words, kind in kinds:
-        (_, tensor), linear = kind.residual(psi), kind.linear(np.float32)
-        taken = median(15, lambda k=kind, t=tensor, a=linear: k.factor(t, np.float32, a))  # type: ignore[misc]
+        linear = kind.linear(np.float32)
+        taken = median(15, lambda k=kind, a=linear: k.factor(tensor, np.float32, a))  # type: ignore[misc]
         whole = kind.factor(tensor, np.float32, linear)
         one = median(15, lambda f=whole: f.solve(system.load))  # type: ignore[misc]
         words = f"{words}, single precision: iron condensed, band put together and factorised; all nodes solved for"

@@ -5,6 +5,7 @@ What `fem.native` is tested against, and what steps in where it is not compiled 
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -22,8 +23,15 @@ class CellArrays:
 
     def __init__(self, model: CellModel) -> None:
         self._model, self._cells = model, model.cells
-        nu_r, nu_z = model.reluctivity
-        self._linear_r, self._linear_z = (nu[:, None] * self._cells.weight for nu in (nu_r, nu_z))
+
+    @cached_property
+    def _linear_r(self) -> Floats:
+        """(m, points) ν_r times the quadrature weight, zero in iron."""
+        return np.asarray(self._model.reluctivity[0][:, None] * self._cells.weight)
+
+    @cached_property
+    def _linear_z(self) -> Floats:
+        return np.asarray(self._model.reluctivity[1][:, None] * self._cells.weight)
 
     def residual(self, psi: Floats) -> tuple[Floats, Floats]:
         """Of nodal ψ, with the tensor."""
@@ -75,22 +83,18 @@ class CellArrays:
 
     def factor(self, tensor: Floats, precision: Precision, linear: tuple[Condensed, Any]) -> BandFactor:
         """Of the band of all cells' edges."""
-        others, band = linear[0], linear[1].copy()
-        inside = self._iron(tensor, precision)
-        self._model.where.entries(self._model.iron).add(band, inside.edge)
-        return BandFactor(self._model.where, band, ((self._model.others, others), (self._model.iron, inside)))
+        inside, band = self.condensed(tensor, precision, linear)
+        return BandFactor(self._model.where, band, ((self._model.others, linear[0]), (self._model.iron, inside)))
 
-    def _iron(self, tensor: Floats, precision: Precision) -> Condensed:
+    def condensed(self, tensor: Floats, precision: Precision, linear: tuple[Condensed, Any]) -> tuple[Condensed, Any]:
+        """The iron's cells, and of all cells the band (k, bandwidth + 1): the lower triangle of the condensed tangent,
+        by columns from the diagonal down."""
         check_finite(tensor)
         along_z, mixed, along_r = tensor
         whole = cell_matrices(self._cells, self._model.iron, along_z, mixed, along_r, precision)
-        return condensed(self._cells.square, whole)
-
-    def band(self, tensor: Floats, precision: Precision) -> Any:
-        """(k, bandwidth + 1) the lower triangle of the condensed tangent, by columns from the diagonal down."""
-        _, band = self.linear(precision)
-        self._model.where.entries(self._model.iron).add(band, self._iron(tensor, precision).edge)
-        return band
+        inside, band = condensed(self._cells.square, whole), linear[1].copy()
+        self._model.where.entries(self._model.iron).add(band, inside.edge)
+        return inside, band
 
     def plain_factor(self, tensor: Floats) -> PlainFactor:
         """The whole matrix, by general means."""

@@ -46,10 +46,10 @@ def _parts(count: int) -> _Parts:
 class CellNative:
     """See `CellKernels`."""
 
-    def __init__(self, model: CellModel, kernels: native.Kernels) -> None:
+    def __init__(self, model: CellModel, functions: native.Functions) -> None:
         """model : its cells are of fourth order."""
         assert model.cells.square.order == ORDER
-        self._run, self._model, self._kept = kernels, model, list[Any]()
+        self._run, self._model, self._kept = functions, model, list[Any]()
         self._tiles = _tiles(model.where)
         self._mesh = native.Mesh(**self._sizes(), **{name: self._at(array) for name, array in self._arrays().items()})
 
@@ -86,13 +86,13 @@ class CellNative:
             "width": cells.widths,
             "height": cells.heights,
             "inverse_radius": cells.inverse_radius_of_columns,
-            "nu_r": nu_r,
-            "nu_z": nu_z,
+            "nu_r": nu_r.astype(float),
+            "nu_z": nu_z.astype(float),
             "curve": curve,
             "iron": model.iron.astype(np.int32),
             "others": model.others.astype(np.int32),
             "place": place,
-            "steps": np.array([curve.step for curve, _ in model.curves]),
+            "steps": np.array([curve.step for curve, _ in model.curves], dtype=float),
             "intervals": np.array([curve.coefficients.shape[1] for curve, _ in model.curves], dtype=np.int64),
             "coefficients": _coefficients([curve.coefficients for curve, _ in model.curves]),
             "value": polynomials.values(points),
@@ -112,14 +112,14 @@ class CellNative:
 
     def residual(self, psi: Floats) -> tuple[Floats, Floats]:
         """Of nodal ψ, with the tensor."""
-        whole, forces = np.ascontiguousarray(psi, dtype=float), np.empty(psi.size)
-        tensor = np.empty((3, self._model.iron.size, self._model.cells.square.points))
+        whole, tensor = _checked(psi, self._model.load.shape), np.empty(self._tensor_shape)
+        forces = np.empty_like(whole)
         self._done("residual", whole.ctypes.data, forces.ctypes.data, tensor.ctypes.data)
         return forces, tensor
 
     def product(self, tensor: Floats, columns: Floats) -> Floats:
         """With nodal fields (n, k)."""
-        whole = np.ascontiguousarray(columns.T, dtype=float)
+        whole, tensor = self._rows(columns), _checked(tensor, self._tensor_shape)
         found = np.empty_like(whole)
         for one, image in zip(whole, found, strict=True):
             self._done("product", tensor.ctypes.data, one.ctypes.data, image.ctypes.data)
@@ -135,12 +135,21 @@ class CellNative:
     def factor(self, tensor: Floats, precision: Precision, linear: _Parts) -> NativeFactor:
         """Of all cells' edges."""
         assert precision is np.float32
+        tensor = _checked(tensor, self._tensor_shape)
         check_finite(tensor)
         iron = _parts(self._model.iron.size)
         self._definite("condense_iron", tensor.ctypes.data, iron.pointers)
         band = np.empty((self._tiles.blocks, self._tiles.count, TILE, TILE), dtype=np.float32)
         self._definite("factorise", linear.edge.ctypes.data, iron.edge.ctypes.data, band.ctypes.data)
         return NativeFactor(self, band, linear, iron)
+
+    @property
+    def _tensor_shape(self) -> tuple[int, ...]:
+        return 3, self._model.iron.size, self._model.cells.square.points
+
+    def _rows(self, columns: Floats) -> Floats:
+        """Nodal (n, k) as the library reads them, one after another."""
+        return _checked(columns.T, (columns.shape[1], self._model.load.size))
 
     def _done(self, name: str, *arguments: Any) -> None:
         if self._run[name](self._mesh, *arguments):
@@ -152,11 +161,18 @@ class CellNative:
 
     def solved(self, band: Any, linear: _Parts, iron: _Parts, columns: Floats) -> Floats:
         """(n, k) by a factor, which is read once for all columns."""
-        right = np.ascontiguousarray(columns.T, dtype=float)
+        right = self._rows(columns)
         found = np.empty_like(right)
         addresses = right.ctypes.data, found.ctypes.data
         self._done("solve", band.ctypes.data, linear.pointers, iron.pointers, right.shape[0], *addresses)
         return found.T
+
+
+def _checked(array: Floats, shape: tuple[int, ...]) -> Floats:
+    """As the library reads it, which knows no size but its own; raises ValueError."""
+    if array.shape != shape:
+        raise ValueError(f"expected an array of shape {shape}, got {array.shape}")
+    return np.ascontiguousarray(array, dtype=float)
 
 
 class NativeFactor(CellFactor):

@@ -18,7 +18,7 @@ from fluxbore.fem.factors import Factor, SingularMatrixError
 from fluxbore.fem.linear import Method
 from fluxbore.fem.mapped import MappedMesh
 from fluxbore.fem.mesh import Floats
-from fluxbore.fem.native import kernels
+from fluxbore.fem.native import functions
 from fluxbore.fem.newton import solved
 from fluxbore.fem.problem import Problem
 from fluxbore.fem.refined import Refined
@@ -44,7 +44,7 @@ class CellSystem(Kernels):
         super().__init__(problem.mesh)
         self.problem, self.rim = problem, rim
         self._model = cell_model(problem, grid, rim)
-        self.cells, self.load, self.iron = self._model.cells, self._model.load, self._model.curves
+        self.cells, self.load, self.has_iron = self._model.cells, self._model.load, self._model.iron.size > 0
         self._arrays = CellArrays(self._model)
         self._single = _in_single_precision(self._model) or self._arrays
         self._state: _State | None = None
@@ -84,7 +84,7 @@ class CellSystem(Kernels):
         """The residual's derivative at ψ, ready to solve with, by a factor that is near where there is one."""
         return self._tangent(psi, neighbour, method, self._remembered())
 
-    def _kernels(self, precision: Precision) -> CellKernels:
+    def _by(self, precision: Precision) -> CellKernels:
         return self._single if precision is np.float32 else self._arrays
 
     def _remembered(self) -> Linear:
@@ -94,7 +94,7 @@ class CellSystem(Kernels):
 
         def linear(precision: Precision) -> Any:
             if precision not in made:
-                made[precision] = self._kernels(precision).linear(precision)
+                made[precision] = self._by(precision).linear(precision)
             return made[precision]
 
         return linear
@@ -113,18 +113,14 @@ class CellSystem(Kernels):
     def _factor(self, tensor: Floats, precision: Precision, linear: Linear) -> Factor:
         """In single precision, in double where the matrix asks for it."""
         try:
-            return self._kernels(precision).factor(tensor, precision, linear(precision))
+            return self._by(precision).factor(tensor, precision, linear(precision))
         except SingularMatrixError:
             if precision is np.float64:
                 raise
             return self._factor(tensor, np.float64, linear)
 
-    def condensed_band(self, psi: Floats, precision: Precision) -> Any:
-        """(k, bandwidth + 1) the lower triangle of the condensed tangent at ψ, by columns from the diagonal down."""
-        return self._arrays.band(self._at(psi).tensor, precision)
-
 
 def _in_single_precision(model: CellModel) -> CellKernels | None:
     """Compiled, where they are and know the cells."""
-    compiled = kernels()
+    compiled = functions()
     return CellNative(model, compiled) if compiled is not None and model.cells.square.order == ORDER else None

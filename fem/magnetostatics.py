@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Protocol
@@ -37,14 +37,14 @@ class Settings:
 class Equations(Protocol):
     """The discrete equations of a problem, as Newton and all who read a solution need them.
 
-    load : (unknowns,). iron : of a nonlinear problem, anything; empty for a linear one.
+    load : (unknowns,).
     """
 
     problem: Problem
     load: Floats
 
     @property
-    def iron(self) -> Sequence[object]: ...
+    def has_iron(self) -> bool: ...
 
     @property
     def kernel(self) -> Kernel: ...
@@ -92,6 +92,11 @@ class System(Kernels):
     def linear_factor(self) -> Floats:
         """ν of the linear part times quadrature weight: (m, q), or (m, q, 2) where a material has a direction."""
         return self._linear_factor()
+
+    @property
+    def has_iron(self) -> bool:
+        """Whether the problem is nonlinear."""
+        return bool(self.iron)
 
     def _assemble_linear(self) -> Floats:
         """The linear part of the matrix; returns (n,) what the prescribed ψ pulls on through it."""
@@ -315,6 +320,6 @@ def solve(
         float(np.linalg.norm(system.load)) or float(np.linalg.norm(system.residual(np.zeros_like(first)))),
         settings.tolerance,
         settings.max_iterations,
-        ROUGHEST if system.iron else 0.0,
+        ROUGHEST if system.has_iron else 0.0,
     )
     return Solution(problem, system.spread(unknowns), convergence, system, settings.method, factor)

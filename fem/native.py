@@ -59,21 +59,39 @@ class Parts(ctypes.Structure):
     _fields_ = [("edge", POINTER), ("inverse", POINTER), ("coupling", POINTER)]
 
 
-Kernels = dict[str, Callable[..., int]]
-"""The library's functions by name. Each returns zero, or something else where it failed."""
+Functions = dict[str, Callable[..., int]]
+"""The library's by name. Each returns zero, or something else where it failed."""
 
 
 @cache
-def kernels(level: str | None = None) -> Kernels | None:
-    """None where the library is not compiled or does not load.
-
-    level : a kind of processor of kernels/build.py that this one must be; this processor's without.
-    """
+def _loaded() -> Any:
+    """None where the library is not compiled, does not load, or is not what is described here."""
     try:
-        loaded = ctypes.CDLL(str(library()))
-    except OSError:
+        found = ctypes.CDLL(str(library()))
+        sizes = found.size_of_mesh(), found.size_of_parts()
+    except (OSError, AttributeError):
         return None
-    level = level or ("v3" if loaded.has_v3() else "base")
+    return found if sizes == (ctypes.sizeof(Mesh), ctypes.sizeof(Parts)) else None
+
+
+@cache
+def level() -> str | None:
+    """The kind of processor, of kernels/build.py, that the library takes this one for; None without a library."""
+    found = _loaded()
+    if found is None:
+        return None
+    return "v3" if found.has_v3() else "base"
+
+
+@cache
+def functions(kind: str | None = None) -> Functions | None:
+    """None without a library.
+
+    kind : a kind of processor that this one must be; by `level` without.
+    """
+    loaded, kind = _loaded(), kind or level()
+    if loaded is None:
+        return None
     mesh, parts = ctypes.POINTER(Mesh), ctypes.POINTER(Parts)
     arguments: dict[str, list[Any]] = {
         "residual": [mesh, POINTER, POINTER, POINTER],
@@ -85,7 +103,7 @@ def kernels(level: str | None = None) -> Kernels | None:
     }
     found = {}
     for name, types in arguments.items():
-        function = getattr(loaded, f"{name}_{level}")
+        function = getattr(loaded, f"{name}_{kind}")
         function.argtypes, function.restype = types, ctypes.c_int
         found[name] = function
     return found

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from fluxbore.design.spec import Spec
+from fluxbore.fem.native import level
 
 ROOMS = ("design", "fem", "geometry", "optimize")
 """The parts of the package that figures depend on; the report and the command line do not compute."""
@@ -33,6 +34,7 @@ def design_key(spec: Spec, fidelity: str, evaluate: Callable[..., Any], gradient
         "evaluate": _name(evaluate),
         "materials": _materials(spec),
         "program": program(),
+        "kernels": level(),  # numpy's arrays, which stand in for them, agree to some nine digits
         **({"gradient": list(gradient), "given": sorted(spec.given)} if gradient else {}),
     }
     return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()

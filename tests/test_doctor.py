@@ -95,7 +95,7 @@ def test_the_doctor_loads_nothing_heavy() -> None:
 
 def test_kernels_that_are_not_compiled_cost_time_alone(monkeypatch: pytest.MonkeyPatch) -> None:
     """Catches a slow machine whose user never learns why, and a verdict that something is missing."""
-    monkeypatch.setattr("fluxbore.fem.native.kernels", lambda: None)
+    monkeypatch.setattr("fluxbore.fem.native.level", lambda: None)
     finding = next(finding for finding in diagnose() if finding.name == "solver kernels")
     assert finding.ok
     assert "three times as long" in finding.detail

@@ -10,6 +10,8 @@ from pathlib import Path
 
 import pytest
 
+from fluxbore.fem.native import level
+
 TOP = Path(__file__).resolve().parents[1]
 ROOMS = ["design", "fem", "geometry", "optimize", "reports"]
 LINK = stat.S_IFLNK >> 12
@@ -65,6 +67,7 @@ def wheel(checkout: Path) -> Path:
 def test_the_wheel_holds_each_file_of_the_rooms_once_and_nothing_else(checkout: Path, wheel: Path) -> None:
     """Catches data left out (materials, templates, py.typed), a room archived twice, and stray files."""
     contents = {name: data for name, data in _contents(wheel).items() if ".dist-info/" not in name}
+    assert any(name.startswith("fluxbore/fem/kernels/kernels-") for name in contents) == (level() is not None)
     assert contents == _expected(checkout)
     assert "fluxbore/py.typed" in contents
 

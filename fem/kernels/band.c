@@ -10,7 +10,7 @@
 #define TILE_SIZE (TILE * TILE)
 
 /* Columns of a product that are made at once: what registers hold. */
-#define GROUP (BYTES == 64 ? 16 : BYTES == 32 ? 4 : 2)
+#define GROUP (BYTES == 32 ? 4 : 2)
 
 static void add_edges(const Mesh *m, float *band, const int32_t *cells, int64_t count, const float *edge)
 {
@@ -199,8 +199,8 @@ int NAME(solve)(const Mesh *m, const float *band, const Parts *linear, const Par
         const double *from = right + c * nodes;
         double largest = 0;
         for (int64_t n = 0; n < nodes; n++)
-            largest = fabs(from[n]) > largest ? fabs(from[n]) : largest;
-        scale[c] = largest > 0 ? largest : 1;
+            largest = fabs(from[n]) <= largest ? largest : fabs(from[n]); /* what is not a number stays so */
+        scale[c] = largest == 0 ? 1 : largest;
         for (int64_t n = 0; n < nodes; n++)
             nodal[c * nodes + n] = (float)(from[n] / scale[c]);
     }

@@ -1,4 +1,5 @@
-/* Which of the kernels this processor can run. */
+/* Which of the kernels this processor can run, and how large their structures are. */
+#include "kernels.h"
 
 /* Whether it has vectors of 32 bytes, and multiplies and adds at once: then those of level "v3" run, else "base". */
 int has_v3(void)
@@ -10,3 +11,8 @@ int has_v3(void)
     return 0;
 #endif
 }
+
+/* Bytes, for whoever fills them from elsewhere. */
+int size_of_mesh(void) { return (int)sizeof(Mesh); }
+
+int size_of_parts(void) { return (int)sizeof(Parts); }

@@ -73,10 +73,10 @@ def _package(name: str) -> Finding:
 
 def _kernels() -> Finding:
     """Without them nothing is missing but time."""
-    from fluxbore.fem.native import kernels
+    from fluxbore.fem.native import level
 
-    if kernels() is not None:
-        return Finding("solver kernels", True, "compiled")
+    if level() is not None:
+        return Finding("solver kernels", True, f"compiled; this processor is of level {level()}")
     detail = "not compiled: designs of the hybrid actuator take three times as long"
     remedy = f"install a C compiler (Debian: gcc libc6-dev), then: {sys.executable} -m fluxbore.fem.kernels.build"
     return Finding("solver kernels", True, detail, remedy)
