@@ -11,13 +11,11 @@ from __future__ import annotations
 import ctypes
 import os
 import platform
-import shlex
-import shutil
-import subprocess
 import sys
-import tempfile
 import zlib
 from pathlib import Path
+
+# What only a build needs is imported there: every process that computes asks for the library's name.
 
 FOLDER = Path(__file__).parent
 SOURCES = ("kernels.h", "cells.c", "condense.c", "band.c", "level.c", "build.py")
@@ -40,6 +38,9 @@ def library(folder: Path = FOLDER) -> Path:
 
 def compiler() -> list[str] | None:
     """The command of a C compiler, where there is one; raises ValueError for a CC that no shell would understand."""
+    import shlex
+    import shutil
+
     if os.environ.get("CC"):
         return shlex.split(os.environ["CC"])
     return next(([found] for name in ("cc", "gcc", "clang") if (found := shutil.which(name))), None)
@@ -48,6 +49,10 @@ def compiler() -> list[str] | None:
 def build(folder: Path = FOLDER) -> Path | None:
     """Compile what is not yet compiled; None where that cannot be, which is said. This machine's libraries of other
     sources are removed."""
+    import shutil
+    import subprocess
+    import tempfile
+
     target = library(folder)
     if _loads(target):
         return target
@@ -100,6 +105,8 @@ def _say(words: str) -> None:
 
 
 def _run(*command: str) -> None:
+    import subprocess
+
     subprocess.run(command, check=True, capture_output=True, text=True)
 
 
