@@ -63,9 +63,10 @@ class CellSystem(Kernels):
 
     def _at(self, psi: Floats) -> _State:
         """The last state is kept: a residual and its tangent ask for the same."""
-        if self._state is None or not np.array_equal(self._state.psi, psi):
-            self._state = _State(psi, *self._single.residual(psi))
-        return self._state
+        state = self._state
+        if state is None or not (psi is state.psi or np.array_equal(state.psi, psi)):
+            state = self._state = _State(psi, *self._single.residual(psi))
+        return state
 
     def residual(self, psi: Floats) -> Floats:
         """Internal minus external load (A), by node."""

@@ -15,6 +15,7 @@ import numpy as np
 from fluxbore.fem.conjugate_gradients import conjugate_gradients
 from fluxbore.fem.factors import BandedCholesky, Factor, SingularMatrixError, SuperLU
 from fluxbore.fem.pattern import Floats, Pattern
+from fluxbore.fem.refined import lengths
 
 Method = Literal["auto", "banded", "superlu", "multigrid"]
 
@@ -126,13 +127,13 @@ class Corrected:
         What corrects a first solution needs few digits of its own, so that single precision does, unless the matrix
         is so ill-conditioned that it gains less than a digit.
         """
-        size = _lengths(right)
+        size = lengths(right)
         goal = tolerance * size
         x = self.nearest.solve(right)
         correct = self.nearest.solve_roughly if isinstance(self.nearest, BandedCholesky) else self.nearest.solve
         for sweep in range(1, MOST_REFINEMENTS + 1):
             rest = right - self._matrix @ x
-            before, size = size, _lengths(rest)
+            before, size = size, lengths(rest)
             far = np.flatnonzero(size > goal)
             if not far.size:
                 return x
@@ -141,11 +142,6 @@ class Corrected:
             if sweep < MOST_REFINEMENTS:
                 x[:, far] += correct(rest[:, far])
         return None
-
-
-def _lengths(columns: Floats) -> Floats:
-    """(k,) Euclidean, of columns (n, k)."""
-    return np.asarray(np.sqrt(np.einsum("nk,nk->k", columns, columns)))
 
 
 class Tangents:

@@ -31,6 +31,11 @@ WORTH = 0.1
 """A sweep that leaves more of the residual than this costs more than a better factor in the end."""
 
 
+def lengths(columns: Floats) -> Floats:
+    """(k,) Euclidean, of columns (n, k)."""
+    return np.asarray(np.sqrt(np.einsum("nk,nk->k", columns, columns)))
+
+
 class Refined:
     """x with A x = b for right sides (n,) or (n, k)."""
 
@@ -56,12 +61,12 @@ class Refined:
 
     def _swept(self, right: Floats, tolerance: float) -> Floats | None:
         """None where the factor is too rough."""
-        scale = np.linalg.norm(right, axis=0)
+        scale = lengths(right)
         size, goal = scale, tolerance * scale
         x = self.factor.solve(right)
         for _ in range(MOST_SWEEPS):
             rest = right - self._multiply(x)
-            before, size = size, np.linalg.norm(rest, axis=0)
+            before, size = size, lengths(rest)
             far = np.flatnonzero(~(size <= goal))
             if not far.size:
                 return x

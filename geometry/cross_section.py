@@ -6,8 +6,10 @@ that need not follow the breakpoints. The finite elements and the drawings read 
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -131,14 +133,15 @@ def paint(
     """Regions and cells from rectangles whose edges are breakpoints; later rectangles cover earlier ones."""
     regions = [AIR]
     cells = np.zeros((len(z.intervals), len(r.intervals)), dtype=int)
-    r_middle = (np.array(r.values[1:]) + np.array(r.values[:-1])) / 2
-    z_middle = (np.array(z.values[1:]) + np.array(z.values[:-1])) / 2
+    r_middle, z_middle = ([(a + b) / 2 for a, b in pairwise(points.values)] for points in (r, z))
     for rectangle in rectangles:
         if rectangle.region not in regions:
             regions.append(rectangle.region)
-        inside_r = (rectangle.r[0] < r_middle) & (r_middle < rectangle.r[1])
-        inside_z = (rectangle.z[0] < z_middle) & (z_middle < rectangle.z[1])
-        cells[np.ix_(inside_z, inside_r)] = regions.index(rectangle.region)
+        columns, rows = (
+            slice(bisect_left(middle, start), bisect_left(middle, end))
+            for middle, (start, end) in ((r_middle, rectangle.r), (z_middle, rectangle.z))
+        )
+        cells[rows, columns] = regions.index(rectangle.region)
     return tuple(regions), cells
 
 
