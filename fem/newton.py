@@ -102,6 +102,7 @@ def newton(
             return x, Convergence("stalled", iteration, float("inf")), factor
         if size <= tolerance * scale:
             return x, Convergence("converged", iteration, size / scale), factor
+        factor = None  # its memory, still in the cache, is the next one's
         try:
             factor = tangent(x)
             step = _step(factor, r, forcing, tolerance * scale / size)
