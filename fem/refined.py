@@ -33,7 +33,7 @@ WORTH = 0.1
 
 def lengths(columns: Floats) -> Floats:
     """(k,) Euclidean, of columns (n, k)."""
-    return np.asarray(np.sqrt(np.einsum("nk,nk->k", columns, columns)))
+    return np.sqrt([float(column @ column) for column in columns.T])
 
 
 class Refined:
