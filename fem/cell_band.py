@@ -5,6 +5,7 @@ The nodes that are left are numbered as in the lattice, along r first: the domai
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -91,15 +92,16 @@ def places(topology: Topology, rows: int, columns: int, order: int) -> Places:
     return Places(topology, rows, columns, order)
 
 
-class CellFactor:
+class CellFactor(ABC):
     """A factorised matrix of a mapped mesh: right sides and solutions are nodal, zero where ψ is prescribed."""
 
     def solve(self, right: Floats) -> Floats:
         """x (n,) or (n, k) with A x = right."""
         return self._solved(right) if right.ndim == 2 else self._solved(right[:, None])[:, 0]
 
+    @abstractmethod
     def _solved(self, columns: Floats) -> Floats:
-        raise NotImplementedError
+        """(n, k) of right sides (n, k)."""
 
 
 class BandFactor(CellFactor):
