@@ -13,7 +13,7 @@ import numpy as np
 from fluxbore.fem.factors import Factor
 from fluxbore.fem.mesh import Floats
 
-TOLERANCE = 1e-10
+TOLERANCE = 1e-11
 """Residual of a solution, relative to the right side, where nothing else is asked for."""
 
 FINEST = 1e-12
