@@ -51,10 +51,12 @@ class CellNative:
         assert model.cells.square.order == ORDER
         self._run, self._model, self._kept = functions, model, list[Any]()
         self._tiles = _tiles(model.where)
-        self._mesh = native.Mesh(**self._sizes(), **{name: self._at(array) for name, array in self._arrays().items()})
+        self._mesh = native.Mesh(
+            **self._sizes(), **{name: self._address(array) for name, array in self._arrays().items()}
+        )
 
-    def _at(self, array: Any) -> int:
-        """Its address; it lives as long as this does."""
+    def _address(self, array: Any) -> int:
+        """Of an array, which from now on lives as long as this does."""
         whole = np.ascontiguousarray(array)
         self._kept.append(whole)
         return int(whole.ctypes.data)
@@ -177,8 +179,6 @@ def _checked(array: Floats, shape: tuple[int, ...]) -> Floats:
 
 class NativeFactor(CellFactor):
     """By tiles, in single precision: four or five digits."""
-
-    precision = np.dtype(np.float32)
 
     def __init__(self, cells: CellNative, band: Any, linear: _Parts, iron: _Parts) -> None:
         super().__init__()
